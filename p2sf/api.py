@@ -7,6 +7,7 @@ quantity is converted to the unit that the name of its parameter ends in.
 """
 
 import os
+import warnings
 from functools import partial
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -14,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from p2sf.arguments import check_arguments, former_names
 from p2sf.camera import AS_IN_FILE, AimChoice, Camera, StopChoice, set_up_source, with_camera
+from p2sf.errors import P2SFWarning
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.parameters import check_finite
@@ -168,7 +170,8 @@ def coefficients(
     -------
     Coefficients
         W40, W31, W22, W20, W11 and Wd in waves, peak values at this field; numerical aperture, image distance and
-        image height in mm. W = (optical path of the chief ray − that of the ray)/λ.
+        image height in mm. W = (optical path of the chief ray − that of the ray)/λ. Those of a lens with tilted or
+        decentred parts are of the aligned lens, as a ``P2SFWarning`` says.
 
     Examples
     --------
@@ -182,6 +185,8 @@ def coefficients(
     setup = set_up_source(lens, source, camera)
     place = source.depth_mm, source.field_slope, source.wavelength_um
     seidel.check_seidel(setup.lens)
+    if aligned := seidel.of_aligned_lens(setup.lens):
+        warnings.warn(str(aligned), P2SFWarning, stacklevel=4)
     return seidel.coefficients(setup.lens, *place, setup.stop)
 
 

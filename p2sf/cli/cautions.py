@@ -6,10 +6,9 @@ import numpy as np
 
 from p2sf.camera import Setup
 from p2sf.cli.screen import text, warn
-from p2sf.lens.lens import Lens, message_if_misaligned
 from p2sf.messages import Message, ParameterName
 from p2sf.paraxial.first_order import image_distance
-from p2sf.paraxial.seidel import coefficients
+from p2sf.paraxial.seidel import coefficients, of_aligned_lens
 from p2sf.paraxial.wavefront import steepest_slope
 from p2sf.raytrace.aiming import pupil_rays
 from p2sf.raytrace.trace import out_of_order, trace
@@ -18,10 +17,6 @@ STEEP_WAVES = 500.0, 2000.0  # from about a second on, and where `seidel_psf` re
 # Measured for 64 × 64 samples: the nodes, and with them the time, grow with the square of the slope.
 SECONDS_PER_SQUARE_WAVE = 4e-6
 
-STRAIGHT = Message(
-    "parts of the lens are tilted, decentred or not of revolution; all paraxial figures and the six coefficients are "
-    "those of the aligned lens, and leave out what that adds: coma on the axis, a tilted field"
-)
 TOO_COARSE = Message(
     "unknown: samples so far apart add up to no share; give a smaller {parameter}",
     parameter=ParameterName("pixel_um"),
@@ -31,13 +26,8 @@ TOO_COARSE = Message(
 def caution(setup: Setup, seidel: bool) -> None:
     """Print warnings about a setup; call before the work, since one of them is how long that will take."""
     own = long_sum(setup) if seidel else crossed_surfaces(setup)
-    for message in (setup.stop.warning, virtual_image(setup), own, set_straight(setup.lens) if seidel else None):
+    for message in (setup.stop.warning, virtual_image(setup), own, of_aligned_lens(setup.lens) if seidel else None):
         warn(message)
-
-
-def set_straight(lens: Lens) -> Message | None:
-    """Return a warning that paraxial quantities leave out what of a lens is not symmetric, None where all is."""
-    return message_if_misaligned(lens, STRAIGHT)
 
 
 def crossed_surfaces(setup: Setup) -> Message | None:

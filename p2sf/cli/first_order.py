@@ -6,14 +6,14 @@ from typing import Any
 import numpy as np
 
 from p2sf.camera import Setup, set_up
-from p2sf.cli.cautions import set_straight
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName
 from p2sf.cli.screen import Row, heading, print_json, print_table, warn
+from p2sf.lens.misalignment import misalignments
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.first_order import abcd, cardinal_points, image_distance, magnification
 from p2sf.paraxial.lens_checks import lens_checks
 from p2sf.paraxial.pupils import f_number, numerical_aperture, paraxial_rays, pupils
-from p2sf.paraxial.seidel import Coefficients, coefficients, seidel_sums
+from p2sf.paraxial.seidel import Coefficients, coefficients, of_aligned_lens, seidel_sums
 
 INFO_ROWS = (
     ("effective_focal_length", "effective focal length", "mm"),
@@ -51,7 +51,8 @@ def info(lens: LensName, /, *, request: Asked = AS_IN_THE_FILE, as_json: Json = 
     facts = first_order(setup)
     if as_json:
         return print_json(facts)
-    for message in (setup.stop.warning, set_straight(setup.lens), *lens_checks(setup.prescription)):
+    aligned = of_aligned_lens(setup.lens), *misalignments(setup.lens)
+    for message in (setup.stop.warning, *aligned, *lens_checks(setup.prescription)):
         warn(message)
     chosen = {"file": "as the file says", "auto": "the narrowest rim"}[setup.stop.chosen_by]
     notes = {"stop_surface": chosen}
@@ -80,6 +81,7 @@ def first_order(setup: Setup) -> dict[str, Any]:
         "f_number": float(f_number(lens, wavelength, setup.stop)),
         "image_distance": float(image_distance(lens, depth, wavelength)),
         "magnification": float(magnification(lens, depth, wavelength)),
+        "misalignment": [str(words) for words in misalignments(lens)],
     }
 
 
@@ -96,7 +98,8 @@ def coefficients_command(lens: LensName, /, *, request: Asked = AS_IN_THE_FILE, 
     if as_json:
         return print_json({**wave_record(six, setup), "per_surface": sums.tolist()})
     warn(setup.stop.warning)
-    warn(set_straight(setup.lens))
+    for message in (of_aligned_lens(setup.lens), *misalignments(setup.lens)):
+        warn(message)
     rows: list[Row] = [(label, float(getattr(six, name)), "waves") for name, label in WAVES]
     rows.append(("numerical aperture n'|u'|", float(six.na), ""))
     rows.append(("image distance, from the last vertex", float(six.image_distance), "mm"))

@@ -8,6 +8,7 @@ from cyclopts import Parameter
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, check_output
 from p2sf.cli.screen import percent_line, print_json, print_table, warn
 from p2sf.errors import ExportError
+from p2sf.lens.misalignment import misalignments
 
 ENDINGS = ".pdf", ".html", ".json"
 Fields = Annotated[
@@ -45,6 +46,7 @@ def report(
     and a link that opens the lens in the window.
     """
     check_output(output, ENDINGS, lens)
+    from p2sf_explorer.compute.setup import prescription
     from p2sf_explorer.compute.views.performance import answer, performance_request
     from p2sf_explorer.report.contents import report_of, requested_state
     from p2sf_explorer.report.writing import report_record, write_report
@@ -56,7 +58,7 @@ def report(
         table = answer(performance_request(state), lambda: False, lambda *_: None)
         heads = tuple(", ".join(filter(None, head)) for head in table.headings())
         print_table(lens, heads, table.rows())
-        for why in table.reasons:
+        for why in (*misalignments(prescription(state)), *table.reasons):
             warn(why)
         return
     with percent_line() as tell:
@@ -65,7 +67,7 @@ def report(
         write_report(made, output)
     if as_json:
         print_json(report_record(made))
-    for why in made.performance.reasons:
+    for why in (*made.misalignment, *made.performance.reasons):
         warn(why)
 
 

@@ -98,4 +98,5 @@ def heading(setup: Setup) -> str:
     depth = f"{text(source.depth_mm)} mm" if not isinf(source.depth_mm) else "∞"
     place = f"object at {depth}, field {field_text(source)}, {source.wavelength_um * 1000:.7g} nm"
     turned = f", {text(lens.positions.words)}" if lens.positions else ""
-    return f"{lens.title or lens.name}{turned}: {place}"
+    moved = ", tilted, decentred or not of revolution" if setup.lens.misaligned else ""
+    return f"{lens.title or lens.name}{turned}{moved}: {place}"

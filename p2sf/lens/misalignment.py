@@ -9,7 +9,8 @@ from p2sf.arguments import check_arguments
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.lens.placement import Motion, Placement, along_z, placement_of
-from p2sf.lens.properties import PROPERTIES
+from p2sf.lens.properties import PROPERTIES, breaks_words
+from p2sf.messages import Message
 
 
 @check_arguments
@@ -51,6 +52,24 @@ def _restoring(lens: Lens, first: int, last: int, placement: Placement) -> Place
 def with_tilted_sensor(lens: Lens, placement: Placement) -> Lens:
     """Return the lens with its sensor tilted and decentred, in the axes at its position behind the last surface."""
     return replace(lens, sensor_before=() if placement.idle else (placement,))
+
+
+@lru_cache(maxsize=16)
+def misalignments(lens: Lens) -> tuple[Message, ...]:
+    """Return what of a lens is tilted, decentred or not of revolution, a sentence for each place; none if aligned."""
+    if not lens.misaligned:
+        return ()
+    found = []
+    for number, surface in enumerate(lens.surfaces, 1):
+        for each in PROPERTIES:
+            value = getattr(surface, each.name)
+            if not each.symmetric(value) and (words := each.words(value)):
+                found.append(Message(PLACES.get(each.name, "surface {surface}: {words}"), surface=number, words=words))
+    sensor = breaks_words(lens.sensor_before)
+    return *found, *([Message("sensor: {words}", words=sensor)] if sensor else [])
+
+
+PLACES = {"before": "before surface {surface}: {words}", "after": "behind surface {surface}: {words}"}
 
 
 @lru_cache(maxsize=16)

@@ -111,7 +111,8 @@ def _scaled_breaks(placements: tuple[Placement, ...], factor: float) -> tuple[Pl
     return tuple(placement.scaled(factor) for placement in placements)
 
 
-def _breaks_words(placements: tuple[Placement, ...]) -> Message | None:
+def breaks_words(placements: tuple[Placement, ...]) -> Message | None:
+    """Return coordinate breaks in words, as the sum of their numbers; None where they do nothing."""
     if all(placement.idle for placement in placements):
         return None
     numbers = [(*placement.decentre, *placement.tilt_deg) for placement in placements]
@@ -206,7 +207,7 @@ PROPERTIES = (
             endings=_only(ZEMAX, CODE_V),
             symmetric=_symmetric_breaks,
             aligned=lambda _: (),
-            words=_breaks_words,
+            words=breaks_words,
             steps=True,
         )
         for name in ("before", "after")

@@ -17,7 +17,7 @@ from p2sf.conventions import UM_PER_MM, FloatOrArray
 from p2sf.errors import GeometryError
 from p2sf.html import cell, html_table
 from p2sf.lens.grating import Phase
-from p2sf.lens.lens import Lens, Surface, indices
+from p2sf.lens.lens import Lens, Surface, indices, message_if_misaligned
 from p2sf.lens.properties import PROPERTIES
 from p2sf.messages import Message, ParameterName
 from p2sf.paraxial.first_order import crossing
@@ -133,6 +133,17 @@ def check_seidel(lens: Lens) -> None:
     """Raise GeometryError for a lens that no fourth-order wavefront describes."""
     if reason := reason_against_coefficients(lens):
         raise GeometryError(reason)
+
+
+ALIGNED = Message(
+    "parts of the lens are tilted, decentred or not of revolution; all paraxial figures and the six coefficients are "
+    "those of the aligned lens, and leave out what that adds: coma on the axis, a tilted field"
+)
+
+
+def of_aligned_lens(lens: Lens) -> Message | None:
+    """Return a warning that paraxial quantities leave out what of a lens is not symmetric, None where all is."""
+    return message_if_misaligned(lens, ALIGNED)
 
 
 @lru_cache(maxsize=64)

@@ -23,7 +23,7 @@ from p2sf.raytrace.aiming import Sources, pupil_rays, start
 from p2sf.raytrace.surface import Status, to_plane
 from p2sf.raytrace.trace import run
 
-NEAR = 1e-3  # pupil radii from the chief ray to its neighbours: the error is its square plus 1e-16 divided by it
+NEAR = 1e-3  # pupil radii, or slope, from the chief ray to its neighbours: the error is its square plus 1e-16 over it
 
 
 class Foci(NamedTuple):
@@ -38,23 +38,25 @@ class Heights:
     """Heights of chief rays on the sensor, mm: by exact rays (NaN where lost), to third order, and paraxially.
 
     They are measured along the direction of the field; ``aside`` is the component across it, for a misaligned lens.
-    There the other two are those of the aligned lens.
+    ``middle`` is where the chief ray of the axis lands. Of a misaligned lens it is not 0, ``paraxial`` follows from
+    the real chief rays beside that of the axis, and the third order is what the aligned lens adds to it.
     """
 
     real: np.ndarray
     third_order: np.ndarray
     paraxial: np.ndarray
     aside: FloatOrArray = 0.0
+    middle: FloatOrArray = 0.0
 
     @property
     def distortion(self) -> np.ndarray:
-        """Return (real − paraxial)/paraxial, 0 on the axis."""
-        return _share(self.real - self.paraxial, self.paraxial)
+        """Return (real − paraxial)/(paraxial − middle), 0 on the axis."""
+        return _share(self.real - self.paraxial, self.paraxial - self.middle)
 
     @property
     def third_order_distortion(self) -> np.ndarray:
-        """Return (third order − paraxial)/paraxial, 0 on the axis."""
-        return _share(self.third_order - self.paraxial, self.paraxial)
+        """Return (third order − paraxial)/(paraxial − middle), 0 on the axis."""
+        return _share(self.third_order - self.paraxial, self.paraxial - self.middle)
 
 
 def _share(part: np.ndarray, whole: np.ndarray) -> np.ndarray:
@@ -149,14 +151,23 @@ def heights(lens: Lens, source: Source, field_slope: ArrayLike, stop: Stop | Non
 
     ``field_slope`` replaces that of ``source``.
     """
-    slopes = np.asarray(field_slope, dtype=float)
-    sources, turned = Sources(source.depth_mm, slopes, source.wavelength_um), seen_from(lens, source.azimuth_deg)
-    rays = pupil_rays(turned, sources, np.zeros(1), np.zeros(1), stop=stop)
-    beam = run(turned, start(rays), rays.index)
-    aside, real = (np.where(beam.status != Status.PASSED, np.nan, place)[..., 0] for place in (beam.x, beam.y))
+    slopes, turned = np.asarray(field_slope, dtype=float), seen_from(lens, source.azimuth_deg)
+    aside, real = _landing(turned, source, slopes, stop)
     c = coefficients(lens, source.depth_mm, slopes, source.wavelength_um, stop)
-    third = c.image_height + c.w11 * c.wavelength_um / c.reduced_slope / UM_PER_MM
-    return Heights(real, third, c.image_height, aside)
+    more = c.w11 * c.wavelength_um / c.reduced_slope / UM_PER_MM
+    if not lens.misaligned:
+        return Heights(real, c.image_height + more, c.image_height, aside)
+    near, middle, far = _landing(turned, source, np.array([-NEAR, 0.0, NEAR]), stop)[1]
+    paraxial = middle + (far - near) / (2 * NEAR) * slopes
+    return Heights(real, paraxial + more, paraxial, aside, middle)
+
+
+def _landing(lens: Lens, source: Source, slopes: np.ndarray, stop: Stop | None) -> tuple[np.ndarray, np.ndarray]:
+    """Return x and y of the chief rays of fields on the sensor, mm; NaN where they are lost."""
+    rays = pupil_rays(lens, Sources(source.depth_mm, slopes, source.wavelength_um), np.zeros(1), np.zeros(1), stop=stop)
+    beam = run(lens, start(rays), rays.index)
+    x, y = (np.where(beam.status != Status.PASSED, np.nan, place)[..., 0] for place in (beam.x, beam.y))
+    return x, y
 
 
 def colour_shift(

@@ -13,7 +13,7 @@ import numpy as np
 
 from p2sf.conventions import FloatOrArray
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens, seen_from
+from p2sf.lens.lens import Lens, indices, seen_from
 from p2sf.lens.source import Source, source_at
 from p2sf.paraxial.pupils import numerical_aperture
 from p2sf.raytrace.aiming import arriving
@@ -49,9 +49,9 @@ def cone(lens: Lens, source: Source) -> Cone:
         return Cone(na, na, na)
     xi, eta = NEIGHBOUR * np.array([1.0, -1, 0, 0, 0]), NEIGHBOUR * np.array([0.0, 0, 1, -1, 0])
     places, cosines = _at_sensor(lens, source, xi, eta)
-    index = np.linalg.norm(cosines[:, -1])
+    index = abs(float(indices(lens, source.wavelength_um)[-1]))
     turn = tangent_axes(lens, *places[:2, -1])
-    slopes = (turn.T @ (cosines[:, :4:2] - cosines[:, 1:4:2]))[:2] / (2 * NEIGHBOUR)
+    slopes = (turn.T @ (cosines[:, :4:2] - cosines[:, 1:4:2]))[:2] * (index / (2 * NEIGHBOUR))
     across, up = np.linalg.norm(slopes, axis=1).tolist()
     na = float(np.sqrt(abs(np.linalg.det(slopes))))
     return Cone(across, up, na if na > PARALLEL * index else 0.0)
@@ -127,23 +127,23 @@ def closest(places: np.ndarray, cosines: np.ndarray, chief: np.ndarray) -> tuple
 def _chief(lens: Lens, source: Source) -> tuple[np.ndarray, np.ndarray]:
     """Return where the chief ray of a source meets the sensor, mm, and its unit vector, in the sensor's own axes."""
     places, cosines = _at_sensor(lens, source, np.zeros(1), np.zeros(1))
-    chief, turn = cosines[:, 0] / np.linalg.norm(cosines[:, 0]), np.deg2rad(source.azimuth_deg)
-    sine, cosine = np.sin(turn), np.cos(turn)
+    sine, cosine = np.sin(np.deg2rad(source.azimuth_deg)), np.cos(np.deg2rad(source.azimuth_deg))
     back = np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])
-    return back @ places[:, 0], back @ chief
+    return back @ places[:, 0], back @ cosines[:, 0]
 
 
 def _at_sensor(lens: Lens, source: Source, xi: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return where rays through pupil points meet the sensor, mm, and their optical cosines, (3, ray).
+    """Return where rays through pupil points meet the sensor, mm, and their direction cosines, (3, ray), as `Rays` do.
 
-    Raises GeometryError where one is lost.
+    The index of light that runs to the left is negative, so that its cosines are turned round. Raises GeometryError
+    where one is lost.
     """
     lens = seen_from(lens, source.azimuth_deg)
     check_chief_ray(lens, source)
-    beam, _, _ = arriving(lens, source, xi, eta)
+    beam, _, index = arriving(lens, source, xi, eta)
     if (beam.status != Status.PASSED).any():
         raise GeometryError("rays beside the chief ray do not reach the sensor; reduce the field")
-    return beam.place, beam.ray
+    return beam.place, beam.ray / index[-1]
 
 
 def tangent_axes(lens: Lens, x_mm: FloatOrArray, y_mm: FloatOrArray) -> np.ndarray:

@@ -167,3 +167,15 @@ def test_a_chief_ray_lands_beside_the_field_of_a_misaligned_lens():
     rays = pencil(misaligned(x=0.2), Source(field_slope=0.1), np.zeros(1), np.zeros(1))
     assert (found.aside[1], found.real[1]) == (pytest.approx(rays.chief_x[0]), pytest.approx(rays.chief_y[0]))
     assert abs(found.aside[0]) > 5e-4
+
+
+@pytest.mark.parametrize("depth", [inf, 900.0])
+def test_a_decentred_sensor_distorts_nothing(depth):
+    # It moves every image by as much: distortion is that of the aligned lens, to the square of the step of 1e-3.
+    lens, source = find_lens("cooke_triplet"), Source(depth, 0.0, 0.5875618)
+    slopes = np.array([0.0, 0.01, 0.1, 0.25])
+    off = fieldcurves.heights(with_tilted_sensor(lens, Placement(decentre_y=0.2, decentre_x=-0.1)), source, slopes)
+    due = fieldcurves.heights(lens, source, slopes)
+    assert off.distortion == pytest.approx(due.distortion, abs=2e-6)
+    assert off.third_order_distortion == pytest.approx(due.third_order_distortion, rel=1e-5)
+    assert off.middle == pytest.approx(-0.2) and off.aside == pytest.approx(0.1 + 0 * slopes)

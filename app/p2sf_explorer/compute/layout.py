@@ -183,7 +183,7 @@ def layout(
         rays=rays,
         marks=tuple(marks(setup)) if nearly_straight(setup.lens) else (),
         source=None if y is None else (-depth, upright * y),
-        image=_image_point(setup),
+        image=_image_point(setup, drawn),
         entrance_z=float(setup.pupils.entrance_from_first),
         slope=upright * setup.source.field_slope,
         sensor_half=sensor_half(setup.lens, rays),
@@ -239,9 +239,13 @@ def widest_image(lens: Lens) -> float:
     return abs(y + slope * lens.sensor_mm)
 
 
-def _image_point(setup: ParaxialSetup) -> tuple[float, float] | None:
+def _image_point(setup: ParaxialSetup, drawn: Drawing) -> tuple[float, float] | None:
+    """Return z and y of the paraxial image or, of a misaligned lens, of where the chief ray lands; None without one."""
+    if setup.lens.misaligned:
+        chief = next(_paths(setup, drawn, setup.source, [0.0], clip=False), None)
+        return (float(chief.z[-1]), float(chief.y[-1])) if chief and chief.passed else None
     distance = float(setup.coefficients.image_distance)
-    if not (isfinite(distance) and nearly_straight(setup.lens)):
+    if not isfinite(distance):
         return None
     rays = setup.rays
     unit = rays.chief_y[-1] + rays.chief_nu[-1] / rays.index[-1] * distance

@@ -9,6 +9,7 @@ from p2sf.camera import Request, explicit_values, set_up
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import Cancelled, P2SFError
 from p2sf.lens.lens import Lens
+from p2sf.lens.misalignment import misalignments
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.messages import Message
@@ -47,6 +48,7 @@ class LensReport:
     written: date
     versions: dict[str, str]
     link: str
+    misalignment: tuple[Message, ...]
     prescription: lens_table.Rows
     first_order: tuple[tuple[first_order.Row, ...], ...]
     layout: Layout
@@ -80,6 +82,7 @@ def report_of(
         written=date.today(),
         versions=versions(),
         link=link(portable(state)),
+        misalignment=misalignments(found.setup.lens),
         prescription=lens_table.rows(found),
         first_order=first_order.first_order(found),
         layout=layout(found.setup, state.optics.clip, "field", 3),

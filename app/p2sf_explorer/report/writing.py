@@ -110,6 +110,8 @@ def _first_pages(report: LensReport, words: Style) -> list[Sheet]:
     first.write(report.title, Lettering(min(15.0, TITLE_ROOM / max(1, len(report.title))), bold=True))
     first.y += 1
     first.write(report.source.text(words), Lettering(grey=True))
+    for line in wrap("; ".join(one.text(words) for one in report.misalignment), REASON_LETTERS):
+        first.write(line, Lettering(7, grey=True))
     draw_lens(first.axes(EDGE_MM + 8, first.y + 3, first.inner_mm - 8, 62), report.layout)
     first.y += 78
     first.write(Message("First order").text(words), HEADING)
@@ -213,6 +215,7 @@ def html_report(report: LensReport, words: Style = REPORT_STYLE) -> str:
     columns = (html_table((), [(Message(n).text(words), v.text(words)) for n, v, _ in c]) for c in report.first_order)
     parts = [
         f"<h1>{escape(report.title)}</h1><p>{escape(report.source.text(words))}</p>",
+        *(f"<p>{escape(one.text(words))}</p>" for one in report.misalignment),
         svg_element(lambda figure: draw_lens(figure.add_subplot(), report.layout), 180, 75),
         heading(Message("First order")),
         f'<div class="pair">{"".join(columns)}</div>',
@@ -275,6 +278,7 @@ def report_record(report: LensReport) -> dict[str, Any]:
         {
             "title": report.title,
             "source": str(report.source),
+            "misalignment": [str(one) for one in report.misalignment],
             "date": report.written.isoformat(),
             "versions": report.versions,
             "link": report.link,

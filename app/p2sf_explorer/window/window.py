@@ -268,6 +268,7 @@ class MainWindow(QMainWindow):
         self.deferred.watch(state, None)
         self.measuring.watch(None)
         self.controls.show_none()
+        self.caption.show_parts({}, state.display.caption, False)
         self.status.show_none(why)
         self.second.stop()
         for panel in self.panels.values():

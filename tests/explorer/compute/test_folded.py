@@ -7,9 +7,13 @@ import numpy as np
 import pytest
 
 from p2sf.lens.lens import Lens
+from p2sf.lens.misalignment import displaced
+from p2sf.lens.placement import Placement
+from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.messages import Message
+from p2sf.raytrace.pencil import pencil
 from p2sf_explorer.compute.live import Live, live
 from p2sf_explorer.compute.setup import default_state
 from p2sf_explorer.state.panels import REGISTRY, view_of
@@ -73,3 +77,11 @@ def test_a_mirror_behind_the_lens_changes_nothing_but_the_direction(name):
         sensor = each.layout.drawing.sensor_z
         for mesh in (each.views["solid"].psf_surface.mesh, each.views["solid"].front.mesh):
             assert (towards * (mesh.points[:, 2] - sensor) > 0).all()
+
+
+def test_the_dot_of_the_image_is_where_the_chief_ray_of_a_misaligned_lens_lands():
+    moved = displaced(find_lens("cooke_triplet"), 3, 4, Placement(decentre_y=0.2))
+    found = answer(moved, [], field_deg=7.0)
+    z, y = found.layout.image
+    chief = pencil(moved, Source(field_deg=7.0, wavelength_um=found.setup.source.wavelength_um), [0.0], [0.0])
+    assert (z, y) == pytest.approx((moved.vertices[-1], chief.chief_um[1] / 1e3), abs=1e-9)  # rounding of 50 mm

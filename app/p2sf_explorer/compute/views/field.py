@@ -53,7 +53,8 @@ def curves_of(lens: Lens, source: Source, rim: tuple[int, float], widest: float,
     landed = heights(lens, source, slopes, stop)
     foci = real_foci(lens, source, slopes, stop), seidel_foci(c)
     times = exaggeration(landed.distortion)
-    lines = grid(landed.paraxial, 0 * landed.distortion), grid(landed.paraxial, times * landed.distortion)
+    ideal = landed.paraxial - landed.middle
+    lines = grid(ideal, 0 * landed.distortion), grid(ideal, times * landed.distortion)
     return FieldView(degrees_from_slope(slopes), *foci, landed, *lines, times)
 
 
