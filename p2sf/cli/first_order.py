@@ -81,7 +81,7 @@ def first_order(setup: Setup) -> dict[str, Any]:
         "f_number": float(f_number(lens, wavelength, setup.stop)),
         "image_distance": float(image_distance(lens, depth, wavelength)),
         "magnification": float(magnification(lens, depth, wavelength)),
-        "misalignment": [str(words) for words in misalignments(lens)],
+        **({"misalignment": [str(words) for words in moved]} if (moved := misalignments(lens)) else {}),
     }
 
 

@@ -32,7 +32,7 @@ def test_info_coefficients_and_spot_say_what_is_misaligned(moved, capsys):
     assert main(["info", moved, "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["misalignment"][0] == MOVED
     assert main(["info", "cooke_triplet", "--json"]) == 0
-    assert json.loads(capsys.readouterr().out)["misalignment"] == []
+    assert "misalignment" not in json.loads(capsys.readouterr().out)
     assert main(["spot", moved]) == 0
     assert "decentred" in capsys.readouterr().out.splitlines()[0]
 

@@ -59,7 +59,7 @@ def test_the_table_of_the_page_shows_the_same_digits(report):
 
 
 def test_a_report_says_what_is_misaligned_by_the_file_or_by_errors_of_the_build():
-    decentre = ("decentre_y", 3, 4, 0.2),
+    decentre = (("decentre_y", 3, 4, 0.2),)
     found = report_of(change(requested_state("cooke_triplet", Request()), errors=decentre, curves_fields_deg=FIELDS))
     words = "before surface 3: axes decentred by (0, 0.2, 0) mm and tilted by (0, 0, 0)°"
     assert words in report_record(found)["misalignment"] and words in unescape(html_report(found))

@@ -2854,5 +2854,10 @@
 <message><source>{depth}, field {field}, {wavelength:.1f} nm, {speed}</source><translation>{depth}, Feld {field}, {wavelength:.1f} nm, {speed}</translation></message>
 <message><source>{parameter} is {path}, its ending "{ending}" is unknown; choose {endings}</source><translation>{parameter} ist {path}, die Endung "{ending}" ist unbekannt; wählen aus {endings}</translation></message>
 <message><source>{surface} is a grating on a curved surface, whose lines are evenly spaced along the surface in ray-optics, and across the axis here; only plane gratings are read</source><translation>{surface} ist ein Gitter auf einer gekrümmten Fläche, dessen Linien bei ray-optics entlang der Fläche gleich weit auseinanderliegen, hier aber quer zur Achse; nur ebene Gitter werden gelesen</translation></message>
+<message><source>parts of the lens are tilted, decentred or not of revolution; all paraxial figures and the six coefficients are those of the aligned lens, and leave out what that adds: coma on the axis, a tilted field</source><translation>Teile des Objektivs sind gekippt, dezentriert oder nicht rotationssymmetrisch; alle paraxialen Größen und die sechs Koeffizienten gelten für das justierte Objektiv und lassen aus, was dadurch hinzukommt: Koma auf der Achse, ein gekipptes Feld</translation></message>
+<message><source>before surface {surface}: {words}</source><translation>vor Fläche {surface}: {words}</translation></message>
+<message><source>behind surface {surface}: {words}</source><translation>hinter Fläche {surface}: {words}</translation></message>
+<message><source>surface {surface}: {words}</source><translation>Fläche {surface}: {words}</translation></message>
+<message><source>sensor: {words}</source><translation>Sensor: {words}</translation></message>
 </context>
 </TS>
