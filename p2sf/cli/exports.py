@@ -2,15 +2,18 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from cyclopts import Parameter
 
 from p2sf.cli.options import Json, Whole, check_output, check_samples
-from p2sf.cli.screen import print_json, warn
+from p2sf.cli.screen import percent_line, print_json, warn
 from p2sf.database.files.place import is_url
 from p2sf.database.render import Sampling
 from p2sf.files.writing import plain
+
+if TYPE_CHECKING:
+    from p2sf.export import Cube
 
 # The first ending of a format is the one a file gets when no --output is given.
 ENDINGS = {"iset": (".mat",), "fits": (".fits", ".fit", ".fts"), "tiff": (".tif", ".tiff"), "csv": (".csv",)}
@@ -71,15 +74,15 @@ def _iset(file: str, target: Path, picture: RenderedOptions) -> None:
 
 
 def _fits(file: str, target: Path, picture: RenderedOptions) -> None:
-    from p2sf.export import open_cube, write_fits
+    from p2sf.export import write_fits
 
-    write_fits(open_cube(file, _sampling(picture)), target)
+    write_fits(_cube(file, picture), target)
 
 
 def _tiff(file: str, target: Path, picture: RenderedOptions) -> None:
-    from p2sf.export import open_cube, write_tiff
+    from p2sf.export import write_tiff
 
-    write_tiff(open_cube(file, _sampling(picture)), target)
+    write_tiff(_cube(file, picture), target)
 
 
 def _csv(file: str, target: Path, picture: RenderedOptions) -> None:
@@ -88,8 +91,12 @@ def _csv(file: str, target: Path, picture: RenderedOptions) -> None:
     write_csv(open_database(file), target)
 
 
-def _sampling(picture: RenderedOptions) -> Sampling:
-    return Sampling(picture.pixels or Sampling().pixels, picture.pixel_um)
+def _cube(file: str, picture: RenderedOptions) -> "Cube":
+    """Return all PSFs of a file, and show how far their rendering is."""
+    from p2sf.export import open_cube
+
+    with percent_line() as tell:
+        return open_cube(file, Sampling(picture.pixels or Sampling().pixels, picture.pixel_um), tell)
 
 
 _WRITERS = {"iset": _iset, "fits": _fits, "tiff": _tiff, "csv": _csv}

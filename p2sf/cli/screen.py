@@ -18,6 +18,7 @@ from p2sf.messages import Message, printable
 Row = tuple[object, ...]
 FILLED = {"stop": "the real stop", "paraxial": "the paraxial entrance pupil"}  # by exact rays, `Lens.aim`
 LINE = 30  # columns of a line of progress
+EVERY = 10.0  # seconds between lines of progress in a log
 WIDE = 240  # columns of a page that no terminal limits
 
 
@@ -63,25 +64,31 @@ def warn(message: Message | None) -> None:
 
 
 @contextmanager
-def percent_line() -> Iterator[Callable[[float], None] | None]:
-    """Give what is told the share done, from 0 to 1, and shows it on a terminal; None elsewhere. The line goes at last.
+def percent_line() -> Iterator[Callable[[float], None]]:
+    """Give what is told the share done, from 0 to 1, and shows it on a terminal in one line, which goes at last.
 
-    It is on standard error: per cent, and the seconds left once the pace is known.
+    It is on standard error: per cent, and the seconds left once the pace is known. Elsewhere, as in a log, it is
+    another line every EVERY seconds.
     """
-    if not sys.stderr.isatty():
-        yield None
-        return
-    begun = perf_counter()
+    terminal, begun = sys.stderr.isatty(), perf_counter()
+    last = begun
 
     def tell(share: float) -> None:
-        left = seconds_left(share, perf_counter() - begun)
+        nonlocal last
+        now = perf_counter()
+        left = seconds_left(share, now - begun)
         line = f"{100 * share:3.0f} %" + ("" if left is None else f", {left} s left")
-        print(f"\r{line:{LINE}}", end="", file=sys.stderr, flush=True)
+        if terminal:
+            print(f"\r{line:{LINE}}", end="", file=sys.stderr, flush=True)
+        elif now - last > EVERY:
+            last = now
+            print(line.strip(), file=sys.stderr, flush=True)
 
     try:
         yield tell
     finally:
-        print(f"\r{'':{LINE}}\r", end="", file=sys.stderr, flush=True)
+        if terminal:
+            print(f"\r{'':{LINE}}\r", end="", file=sys.stderr, flush=True)
 
 
 def field_text(source: Source) -> str:

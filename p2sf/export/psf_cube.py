@@ -1,6 +1,7 @@
 """All PSFs of a file at its nodes, stored or rendered on opening."""
 
 import os
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
@@ -10,7 +11,7 @@ from p2sf.arguments import check_arguments
 from p2sf.database.files import Stored, load_database
 from p2sf.database.files.place import is_stack
 from p2sf.database.files.stack import open_stack, read_psfs
-from p2sf.database.render import Sampling, critical_pixel_um, rendered_light, samples_per_pixel
+from p2sf.database.render import Sampling, critical_pixel_um, light_of, samples_per_pixel
 from p2sf.errors import DatabaseError
 from p2sf.files.writing import plain
 from p2sf.psf.record import CONVENTIONS, UNITS
@@ -104,8 +105,13 @@ def open_database(path: str | os.PathLike[str]) -> Stored:
     return open_stack(path).stored if is_stack(path) else load_database(path)
 
 
-def open_cube(path: str | os.PathLike[str], sampling: Sampling = DEFAULT) -> Cube:
-    """Return all PSFs of a file; a .npz is rendered with ``sampling``, a stack read unchanged. Raises DatabaseError."""
+def open_cube(
+    path: str | os.PathLike[str], sampling: Sampling = DEFAULT, tell: Callable[[float], object] = float
+) -> Cube:
+    """Return all PSFs of a file; a .npz is rendered with ``sampling``, a stack read unchanged. Raises DatabaseError.
+
+    ``tell`` is told the share rendered, from 0 to 1.
+    """
     if is_stack(path):
         stack = open_stack(path)
         check_line(stack.stored)
@@ -117,8 +123,13 @@ def open_cube(path: str | os.PathLike[str], sampling: Sampling = DEFAULT) -> Cub
     space = stored.database.space
     _check_size(path, (*space.shape, sampling.pixels, sampling.pixels))
     sampling = replace(sampling, pixel_um=pitch)
-    values = rendered_light(stored.database, space.axes, sampling)
-    return Cube(values, pitch, stored, samples_per_pixel(stored.database, sampling) > 1)
+    across = samples_per_pixel(stored.database, sampling)
+    values = np.empty((*space.shape, sampling.pixels, sampling.pixels), np.float32)
+    places = np.broadcast_arrays(*space.axes)
+    for done, index in enumerate(np.ndindex(space.shape[:2]), 1):  # a depth and a field, in all colours
+        values[index] = light_of(stored.database, [place[index] for place in places], sampling, across)
+        tell(done / (space.shape[0] * space.shape[1]))
+    return Cube(values, pitch, stored, across > 1)
 
 
 def check_line(stored: Stored) -> None:

@@ -47,6 +47,7 @@ def write_psf_fits(psf: Psf, path: str | os.PathLike[str], meta: dict) -> Path:
 
 def read_psf_fits(path: str | os.PathLike[str]) -> tuple[Psf, dict]:
     """Return the PSF of a FITS file that `write_psf_fits` wrote, exactly, and its meta. Raises ExportError."""
+    _astropy()
     try:
         values, header = first_picture(path)
         meta = parse_json(header[META])

@@ -73,8 +73,9 @@ def geometric_psf(
     energy = float(values.sum())
     if not energy:
         raise GeometryError("no ray reaches the sensor; {remedy}", remedy=remedy(lens, source, clip))
+    values = values / energy
     if blocks > 1:  # finer samples would show individual rays
-        values = np.kron(values, np.full((blocks, blocks), blocks**-2.0))
+        values = (values * blocks**-2.0).repeat(blocks, axis=0).repeat(blocks, axis=1)
     radii, directions = GRIDS[quality]
     sampling = Message(
         "density of {radii} × {directions} rays; diffraction is too fine to see here",
@@ -83,7 +84,7 @@ def geometric_psf(
     )
     rays = 2 if six else TRACED[quality][0] * TRACED[quality][1]
     made = "geometric", None, energy, 0, rays, sampling, perf_counter() - begun
-    return Psf(values / energy, pixel_um, source.wavelength_um, *made, integrated=True)
+    return Psf(values, pixel_um, source.wavelength_um, *made, integrated=True)
 
 
 def remedy(lens: Lens, source: Source, clip: bool) -> Message:

@@ -10,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from p2sf.cli import main, screen
 from p2sf.conventions import slope_from_degrees
 from p2sf.database import Space, build_database, depth_nodes
 from p2sf.database.files import save_database
@@ -60,6 +61,29 @@ def test_a_stack_and_a_database_give_the_same_cube(database, lens, cube, tmp_pat
     np.testing.assert_allclose(stack.values, cube.values, rtol=1e-5, atol=1e-9)  # float32 sums in other batches
     assert stack.pixel_um == cube.pixel_um == 1.5
     assert open_database(stack.stored and tmp_path / "a.zarr").meta["lens"] == cube.stored.meta["lens"]
+
+
+def test_rendering_tells_how_far_it_is_and_can_be_stopped(file):
+    """One step for each of 3 depths and 5 fields, and none once what is told raises, as Ctrl+C does."""
+    told = []
+    open_cube(file, SAMPLING, told.append)
+    assert told == pytest.approx(np.arange(1, 16) / 15)
+
+    def stop(share):
+        told.append(share)
+        raise KeyboardInterrupt
+
+    told.clear()
+    with pytest.raises(KeyboardInterrupt):
+        open_cube(file, SAMPLING, stop)
+    assert told == [pytest.approx(1 / 15)]
+
+
+def test_an_export_shows_its_progress_in_a_log_too(file, tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(screen, "EVERY", 0.0)
+    assert main(["export", str(file), "--to", "tiff", "--pixels", "9", "-o", str(tmp_path / "a.tif")]) == 0
+    lines = [line for line in capsys.readouterr().err.splitlines() if "%" in line]
+    assert [int(line.split()[0]) for line in lines] == [round(100 * n / 15) for n in range(1, 16)]
 
 
 def test_csv_has_every_node_and_its_coefficients(file, lens, tmp_path):
