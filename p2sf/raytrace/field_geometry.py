@@ -91,10 +91,16 @@ def exit_pupil(lens: Lens, source: Source) -> ExitPupil:
     where that does not reach the sensor either.
     """
     try:
-        found = pupil_about(lens, Source(inf, 0.0, source.wavelength_um))
+        found = pupil_about(lens, _on_axis(lens, source.wavelength_um))
     except GeometryError:
         found = pupil_about(lens, source)
     return found.turned(source.azimuth_deg)
+
+
+def _on_axis(lens: Lens, wavelength_um: float) -> Source:
+    """Return the source at infinity on the axis, which is that of the surfaces where these are tilted as a whole."""
+    x, y, z = lens.frames[0].rotation[:, 2].tolist() if None not in lens.steps[1:] else (0.0, 0.0, 1.0)
+    return source_at(inf, x / z, y / z, wavelength_um)
 
 
 @lru_cache(maxsize=64)
