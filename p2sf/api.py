@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from numpy.typing import ArrayLike
 
 from p2sf.arguments import check_arguments, former_names
-from p2sf.camera import AS_IN_FILE, AimChoice, Camera, StopChoice, set_up_source, with_camera
+from p2sf.camera import AS_IN_FILE, AimChoice, Camera, StopChoice, on_axis, set_up_source, with_camera
 from p2sf.errors import P2SFWarning
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
@@ -32,7 +32,6 @@ if TYPE_CHECKING:
 Path = str | os.PathLike[str]
 Method = Literal["auto", "seidel", "fitted", "traced", "huygens", "spherical", "gaussian"]
 PupilMethod = Literal["auto", "seidel", "fitted", "traced", "huygens", "spherical"]
-ON_AXIS = Source()
 
 
 @check_arguments
@@ -73,7 +72,7 @@ def load_lens(name_or_path: Path) -> Lens:
 @with_camera
 def render(
     lens: Lens,
-    source: Source = ON_AXIS,
+    source: Source | None = None,
     method: Method = "auto",
     *,
     pixels: int = 64,
@@ -96,8 +95,8 @@ def render(
     ----------
     lens : Lens
         The lens, see `load_lens`.
-    source : Source
-        The point source; by default at infinity, on the axis.
+    source : Source, optional
+        The point source; by default at infinity, on the axis, of the lens's reference wavelength.
     method : {"auto", "seidel", "fitted", "traced", "huygens", "spherical", "gaussian"}
         How the PSF is computed; "auto" takes the cheapest method whose predicted R² is at least ``min_r2``.
     pixels : int
@@ -141,11 +140,11 @@ def render(
     from p2sf.psf.pixel_integrals import render_integrated
     from p2sf.psf.result import warn_of_window
 
-    setup = set_up_source(lens, source, camera)
+    setup = set_up_source(lens, source or on_axis(lens), camera)
     with using_threads(threads):
         options = PsfOptions(quality, min_r2, clip)
         psf = render_integrated(setup.lens, setup.source, method, pixels, pixel_um, options, integrated)
-    made = {"azimuth_deg": source.azimuth_deg, "provenance": partial(describe, setup)}
+    made = {"azimuth_deg": setup.source.azimuth_deg, "provenance": partial(describe, setup)}
     return warn_of_window(psf.with_fields(**made), 6)
 
 
@@ -153,7 +152,7 @@ def render(
 @with_camera
 def coefficients(
     lens: Lens,
-    source: Source = ON_AXIS,
+    source: Source | None = None,
     *,
     camera: Camera = AS_IN_FILE,
     focus_mm: float | None = None,
@@ -182,8 +181,8 @@ def coefficients(
     """
     from p2sf.paraxial import seidel
 
-    setup = set_up_source(lens, source, camera)
-    place = source.depth_mm, source.field_slope, source.wavelength_um
+    setup = set_up_source(lens, source or on_axis(lens), camera)
+    place = setup.source.depth_mm, setup.source.field_slope, setup.source.wavelength_um
     seidel.check_seidel(setup.lens)
     if aligned := seidel.of_aligned_lens(setup.lens):
         warnings.warn(str(aligned), P2SFWarning, stacklevel=4)
@@ -194,7 +193,7 @@ def coefficients(
 @with_camera
 def zernike(
     lens: Lens,
-    source: Source = ON_AXIS,
+    source: Source | None = None,
     basis: "ZernikeOrder" = "noll",
     terms: int = 37,
     *,
@@ -235,7 +234,7 @@ def zernike(
     """
     from p2sf.raytrace.zernike_fit import zernike_fit
 
-    setup = set_up_source(lens, source, camera)
+    setup = set_up_source(lens, source or on_axis(lens), camera)
     return zernike_fit(setup.lens, setup.source, basis, terms, clip)
 
 
@@ -244,7 +243,7 @@ def zernike(
 @with_camera
 def choose_method(
     lens: Lens,
-    source: Source = ON_AXIS,
+    source: Source | None = None,
     min_r2: float = 0.99,
     *,
     clip: bool = False,
@@ -273,15 +272,15 @@ def choose_method(
     """
     from p2sf.psf.methods import choose
 
-    setup = set_up_source(lens, source, camera)
-    return choose(setup.lens, source, min_r2, clip)
+    setup = set_up_source(lens, source or on_axis(lens), camera)
+    return choose(setup.lens, setup.source, min_r2, clip)
 
 
 @check_arguments
 @with_camera
 def mtf(
     lens: Lens,
-    source: Source = ON_AXIS,
+    source: Source | None = None,
     method: PupilMethod = "traced",
     *,
     frequency_per_mm: ArrayLike | None = None,
@@ -345,7 +344,7 @@ def mtf(
 @with_camera
 def encircled_energy(
     lens: Lens,
-    source: Source = ON_AXIS,
+    source: Source | None = None,
     method: PupilMethod = "traced",
     *,
     radius_um: ArrayLike | None = None,
@@ -386,7 +385,7 @@ def encircled_energy(
 @with_camera
 def line_spread(
     lens: Lens,
-    source: Source = ON_AXIS,
+    source: Source | None = None,
     method: PupilMethod = "traced",
     *,
     position_um: ArrayLike | None = None,
@@ -425,12 +424,12 @@ def line_spread(
 
 
 def _pupil_parts(
-    lens: Lens, source: Source, spectrum: str | None, camera: Camera, **how: Any
+    lens: Lens, source: Source | None, spectrum: str | None, camera: Camera, **how: Any
 ) -> "tuple[list[PupilPart], str]":
     """Return the pupils of a source, one per wavelength, and the method that described them, as `parts_of` has both."""
     from p2sf.colour.spectrum import spectrum_of
     from p2sf.metrics.measures import parts_of
 
-    setup = set_up_source(lens, source, camera)
+    setup = set_up_source(lens, source or on_axis(lens), camera)
     wanted = None if spectrum is None else spectrum_of(spectrum)
     return parts_of(setup.lens, setup.source, spectrum=wanted, **how)

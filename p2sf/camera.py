@@ -555,6 +555,11 @@ def set_up(lens: Lens, request: Request) -> Setup:
     return with_field(_with_stop(lens, request, source, request.wavelength_nm is not None), request)
 
 
+def on_axis(lens: Lens) -> Source:
+    """Return the source that a lens is seen with where none is stated: at infinity, on the axis, of its wavelength."""
+    return Source(wavelength_um=lens.reference_wavelength_um)
+
+
 def set_up_source(lens: Lens, source: Source, camera: Settings = AS_IN_FILE) -> Setup:
     """Return the setup of a given source; raises as `set_up` does."""
     check_one(source)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from p2sf.arguments import first_place
-from p2sf.conventions import FARTHEST_MM
+from p2sf.conventions import FARTHEST_MM, UM_PER_MM
 from p2sf.errors import RequestError
 from p2sf.messages import Message
 
@@ -16,6 +16,7 @@ LARGEST_OBSCURATION = 0.99
 MOST_VANES, WIDEST_VANE = 12, 0.5
 FEWEST_BLADES, MOST_BLADES = 3, 32
 NARROWEST_APODISATION, MOST_POWER = 0.1, 20
+FASTEST, SLOWEST = 0.01, 1e6  # f-numbers: wide of every lens, and of pinholes of a wavelength
 LONGEST_PATH_UM = 1e6  # a metre: steeper than any real phase plate, and far below the overflow of slopes
 INFINITE = "{parameter} is {value:g}{unit}; give a positive number, inf allowed"
 FINITE = "{parameter} is {value:g}{unit}; give a positive finite number"
@@ -77,6 +78,19 @@ def check_finite(name: str, value: float | None) -> None:
         raise RequestError(
             "{parameter} is {value:g}{unit}; give a finite number", parameter=name, value=value, unit=unit_behind(name)
         )
+
+
+def check_shift(name: str, value: float | None) -> None:
+    """Raise RequestError for a shift in µm that is not finite, or beyond FARTHEST_MM; None passes."""
+    check_finite(name, value)
+    if value is not None:
+        check_between(name, value, -FARTHEST_MM * UM_PER_MM, FARTHEST_MM * UM_PER_MM)
+
+
+def check_f_number(name: str, value: float | None) -> None:
+    """Raise RequestError for an f-number that is not positive, or that no lens has; None passes."""
+    check_positive(name, value)
+    check_between(name, value, FASTEST, SLOWEST)
 
 
 def check_angle(name: str, value: float | None) -> None:
@@ -208,8 +222,8 @@ CAMERA_PARAMETERS = (
     Parameter("zoom", "Zoom", "", accept_any, RING, Message("zoom")),
     Parameter("focus_position", "Focus", "", accept_any, RING, Message("focus")),
     Parameter("focus_mm", "Focus distance", "mm", check_distance, AWAY, Message("focus distance")),
-    Parameter("sensor_shift_um", "Sensor shift", "µm", check_finite, (-1e6, 1e6), Message("sensor shift")),
-    Parameter("f_number", "f-number", "", check_positive, (0.2, 1000.0), Message("f-number")),
+    Parameter("sensor_shift_um", "Sensor shift", "µm", check_shift, (-1e6, 1e6), Message("sensor shift")),
+    Parameter("f_number", "f-number", "", check_f_number, (0.2, 1000.0), Message("f-number")),
     Parameter("stop", "Stop", "", check_stop),
     Parameter("aim", "Rays fill", "", check_aim),
     Parameter("absorption", "Absorption"),

@@ -381,3 +381,17 @@ def test_a_pupil_of_complex_numbers_or_of_none_is_refused(call):
 def test_a_wavefront_needs_an_aperture_and_a_wavelength(na, nm):
     with pytest.raises(RequestError, match="give a positive finite number"):
         p2sf.psf_of_opd(np.zeros((16, 16)), na, nm)
+
+
+def test_a_lens_is_seen_at_its_own_wavelength_where_no_source_is_given():
+    """Glass of one index has the same paths at every wavelength, so that waves times wavelength are one number."""
+    surfaces = (p2sf.Surface(20.0, 3.0, 1.5), p2sf.Surface(-20.0, 19.0))
+    lens = p2sf.Lens(surfaces, p2sf.Aperture("stop_semi_diameter", 1.0), 1, wavelengths_nm=(1550.0,))
+    path = float(p2sf.coefficients(lens, p2sf.Source(wavelength_nm=500.0)).w40) * 0.5
+    assert float(p2sf.coefficients(lens).w40) * 1.55 == pytest.approx(path, rel=1e-12)
+    assert p2sf.render(lens, pixels=8).wavelength_um == 1.55
+    assert p2sf.zernike(lens).rms * 1.55 == pytest.approx(
+        p2sf.zernike(lens, p2sf.Source(wavelength_nm=500.0)).rms * 0.5, rel=1e-9
+    )
+    cut_off = 2000 * float(p2sf.coefficients(lens).na) / 1.55
+    assert p2sf.mtf(lens).frequency_per_mm[-1] == pytest.approx(cut_off, rel=0.01)  # paraxially

@@ -81,6 +81,8 @@ def _app() -> "App":
     """Return the tree of commands."""
     from cyclopts import App
 
+    from p2sf.cli.options import check_whole_numbers
+
     app = App(
         name="p2sf",
         help="From a lens prescription to its point spread functions, with their accuracy.",
@@ -88,6 +90,7 @@ def _app() -> "App":
         version_format="plaintext",
         result_action="return_value",
         suppress_keyboard_interrupt=False,
+        config=check_whole_numbers,
     )
     for name, (place, summary) in COMMANDS.items():
         app.command(f"p2sf.cli.{place}", name=name, help=summary)

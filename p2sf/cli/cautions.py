@@ -8,6 +8,7 @@ from p2sf.camera import Setup
 from p2sf.cli.screen import text, warn
 from p2sf.messages import Message, ParameterName
 from p2sf.paraxial.first_order import image_distance
+from p2sf.paraxial.lens_checks import lens_checks
 from p2sf.paraxial.seidel import coefficients, of_aligned_lens
 from p2sf.paraxial.wavefront import steepest_slope
 from p2sf.raytrace.aiming import pupil_rays
@@ -26,7 +27,8 @@ TOO_COARSE = Message(
 def caution(setup: Setup, seidel: bool) -> None:
     """Print warnings about a setup; call before the work, since one of them is how long that will take."""
     own = long_sum(setup) if seidel else crossed_surfaces(setup)
-    for message in (setup.stop.warning, virtual_image(setup), own, of_aligned_lens(setup.lens) if seidel else None):
+    aligned = of_aligned_lens(setup.lens) if seidel else None
+    for message in (setup.stop.warning, virtual_image(setup), own, aligned, *lens_checks(setup.prescription)):
         warn(message)
 
 

@@ -11,7 +11,7 @@ from cyclopts import App, Parameter
 
 from p2sf.camera import Request, set_up
 from p2sf.cli.lookups import accuracy_rows
-from p2sf.cli.options import AS_IN_ITS_FILE, CameraFlags, Json, LensName, Threads, Whole, check_samples
+from p2sf.cli.options import AS_IN_ITS_FILE, CameraFlags, Json, LensName, Threads, check_samples
 from p2sf.cli.screen import FILLED, Row, print_json, print_table, text, warn
 from p2sf.conventions import NM_PER_UM, degrees_from_slope, slope_from_degrees
 from p2sf.database import Space
@@ -83,7 +83,7 @@ class DatabaseKind:
     method: Literal["auto", "seidel", "fitted"] = "auto"
     interpolant: Literal["exact", "table1", "linear"] = "exact"
     stack: bool = False
-    pixels: Whole = 64
+    pixels: int = 64
     pixel_um: float | None = None
     scheduler: str | None = None
 

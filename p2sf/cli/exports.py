@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from cyclopts import Parameter
 
-from p2sf.cli.options import Json, Whole, check_output, check_samples
+from p2sf.cli.options import Json, check_output, check_samples
 from p2sf.cli.screen import percent_line, print_json, warn
 from p2sf.database.files.place import is_url
 from p2sf.database.render import Sampling
@@ -33,7 +33,7 @@ class RenderedOptions:
         For ISETCam, which holds one object distance: which, mm; the farthest when not given.
     """
 
-    pixels: Whole | None = None
+    pixels: int | None = None
     pixel_um: float | None = None
     depth_mm: float | None = None
 

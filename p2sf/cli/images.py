@@ -11,7 +11,7 @@ from p2sf.api import Method
 from p2sf.camera import Request, Setup, set_up
 from p2sf.cli.cautions import TOO_COARSE, caution
 from p2sf.cli.lookups import accuracy_rows, is_database, looked_up
-from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, Threads, Whole, check_output, check_samples
+from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, Threads, check_output, check_samples
 from p2sf.cli.screen import FILLED, Row, heading, print_json, print_table, warn
 from p2sf.colour.spectrum import WORDS
 from p2sf.database.accuracy import DatabaseAccuracy
@@ -93,7 +93,7 @@ class Picture:
     method: Method | None = None
     min_r2: Annotated[float, Parameter(name=("--min-r2", "--tolerance"))] = 0.99
     sampling: Literal["fft", "mdft"] | None = None
-    pixels: Whole | None = None
+    pixels: int | None = None
     pixel_um: float | None = None
     clip: bool = False
 
@@ -217,6 +217,12 @@ def _in_colour(
 ) -> None:
     from p2sf.cli.colours import colour
 
+    if request.wavelength_nm is not None:
+        raise RequestError(
+            "{parameter} and {other} are both given; keep one of them",
+            parameter="spectrum",
+            other=ParameterName("wavelength_nm"),
+        )
     if is_database(lens):
         raise RequestError(
             "{parameter} needs the lens, and {path} is a database; leave it out or name the lens",

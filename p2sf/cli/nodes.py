@@ -6,7 +6,7 @@ import numpy as np
 from cyclopts import Parameter
 
 from p2sf.camera import Setup, set_up
-from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Whole, check_whole
+from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, check_whole
 from p2sf.cli.screen import Row, heading, print_json, print_table, warn
 from p2sf.conventions import degrees_from_slope
 from p2sf.lensfile.library import find_lens
@@ -14,7 +14,7 @@ from p2sf.paraxial.bending import elements
 from p2sf.tolerance.nodal import FieldAberrations, NodalSensitivities, field_aberrations, nodal_sensitivities
 
 Pieces = Annotated[Literal["elements", "surfaces"], Parameter(help="What is decentred and tilted for sensitivities.")]
-Fields = Annotated[Whole, Parameter(help="Fields along each axis at which exact rays are traced.")]
+Fields = Annotated[int, Parameter(help="Fields along each axis at which exact rays are traced.")]
 SENSITIVITY = ("surfaces", "move", "W31, waves", "towards", "node of coma, °", "nodes of astigmatism, °", "image, µm")
 MOST_FIELDS = 41
 NOTHING = 1e-4  # of a shift: less is a rounding of the differences that it is found by, or of second order

@@ -1,28 +1,37 @@
 """Options that several commands share: the lens, the request, the samples and the output."""
 
-from collections.abc import Iterable, Sequence
+import re
+from collections.abc import Iterable
 from os.path import exists, samefile
 from pathlib import Path
-from typing import Annotated
+from types import NoneType
+from typing import Annotated, Any, get_args
 
-from cyclopts import Parameter, Token
+from cyclopts import App, ArgumentCollection, CoercionError, Parameter
 
 from p2sf.camera import Request, Settings
 from p2sf.errors import RequestError
 from p2sf.files.writing import check_known_ending, check_place
 
+WHOLE = re.compile(r"\s*[+-]?\d+\s*")
 MOST_PIXELS = 2048  # 32 MiB a picture; a kernel of this width still fits any machine
 
 
-def _whole(_: type, tokens: Sequence[Token]) -> int:
-    """Return a whole number; cyclopts itself would silently round 2.5 to 2."""
-    try:
-        return int(tokens[0].value)
-    except ValueError as error:
-        raise ValueError(f'"{tokens[0].value}" is no whole number') from error
+def check_whole_numbers(app: App, commands: tuple[str, ...], arguments: ArgumentCollection) -> None:
+    """Raise CoercionError for a value of a whole number that is none; cyclopts itself would silently round 2.5 to 2."""
+    for argument in arguments:
+        for token in argument.tokens if _kinds(argument.hint) <= {int, NoneType} else ():
+            if not WHOLE.fullmatch(token.value):
+                words = f'"{token.value}" is no whole number'
+                raise CoercionError(msg=words, argument=argument, token=token, target_type=int)
 
 
-Whole = Annotated[int, Parameter(converter=_whole)]
+def _kinds(hint: Any) -> set[Any]:
+    """Return the types of the values of a type, which may be a union, or a tuple or a list of others."""
+    parts = get_args(hint)
+    return set().union(*map(_kinds, parts)) if parts else {hint}
+
+
 LensName = Annotated[str, Parameter(help="A lens file, or the name of a shipped lens (p2sf lenses lists them).")]
 Asked = Annotated[Request, Parameter(name="*")]
 CameraFlags = Annotated[Settings, Parameter(name="*")]
@@ -30,7 +39,7 @@ Json = Annotated[bool, Parameter("--json", negative="", help="Print one JSON obj
 Output = Annotated[Path | None, Parameter(["--output", "-o"], negative="", help="File to write, by its ending.")]
 Threads = Annotated[
     int | None,
-    Parameter(converter=_whole, help="How many threads share the work; P2SF_THREADS, else every core, when not given."),
+    Parameter(help="How many threads share the work; P2SF_THREADS, else every core, when not given."),
 ]
 
 LENS_ENDINGS = ".toml", ".zmx", ".seq", ".json"  # of lens files that are written

@@ -18,7 +18,6 @@ from p2sf.cli.options import (
     LensName,
     Output,
     Threads,
-    Whole,
     check_output,
     check_whole,
 )
@@ -62,7 +61,7 @@ def plan_command(
     scene: SceneFile,
     /,
     *,
-    check: Annotated[Whole, Parameter(help="Measure the error at this many random points against exact rays.")] = 0,
+    check: Annotated[int, Parameter(help="Measure the error at this many random points against exact rays.")] = 0,
     threads: Threads = None,
     as_json: Json = False,
 ) -> None:
@@ -162,12 +161,12 @@ class Shown:
     surround: Literal["edge", "black"] = "edge"
     deblur: Literal["wiener", "richardson-lucy"] | None = None
     noise: float = 0.0
-    seed: Whole = 0
+    seed: int = 0
     encoding: Literal["srgb", "linear"] | None = None
     depth: Literal["8", "16", "half", "float"] | None = None
     preview: bool = False
-    longest: Whole | None = None
-    region: Annotated[tuple[Whole, Whole, Whole, Whole] | None, Parameter(negative="")] = None
+    longest: int | None = None
+    region: Annotated[tuple[int, int, int, int] | None, Parameter(negative="")] = None
     scheduler: str | None = None
 
     def __post_init__(self) -> None:

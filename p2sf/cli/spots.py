@@ -10,7 +10,7 @@ from cyclopts import Parameter
 
 from p2sf.camera import Setup, set_up
 from p2sf.cli.cautions import crossed_surfaces
-from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, Whole, check_output, check_whole
+from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, check_output, check_whole
 from p2sf.cli.screen import FILLED, heading, print_json, print_table, warn
 from p2sf.files.writing import plain, write_beside, write_json
 from p2sf.io.record import describe
@@ -23,7 +23,7 @@ from p2sf.raytrace.spot import spot as spot_of
 MOST_RINGS = 200  # 120 601 rays
 
 Clip = Annotated[bool, Parameter(negative="", help="Stop rays at every clear semi-diameter.")]
-Rings = Annotated[Whole, Parameter(help="Rings of rays to draw; the figures do not depend on them.")]
+Rings = Annotated[int, Parameter(help="Rings of rays to draw; the figures do not depend on them.")]
 
 
 def spot(

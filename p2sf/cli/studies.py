@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, BinaryIO
 from cyclopts import Parameter
 
 from p2sf.camera import Camera
-from p2sf.cli.options import AS_IN_ITS_FILE, CameraFlags, Json, Output, Whole, check_output, check_whole
+from p2sf.cli.options import AS_IN_ITS_FILE, CameraFlags, Json, Output, check_output, check_whole
 from p2sf.cli.screen import print_json, print_table
 from p2sf.errors import ExportError, RequestError
 from p2sf.files.writing import write_beside, write_json
@@ -23,7 +23,7 @@ Several = Parameter(consume_multiple=True, negative="")
 Fields = Annotated[list[float] | None, Several, Parameter(help="Field angles, °; the file's when not given.")]
 Depths = Annotated[list[float] | None, Several, Parameter(help="Object distances, mm, inf allowed; ∞ when not given.")]
 Waves = Annotated[list[float] | None, Several, Parameter(help="Wavelengths, nm; the file's middle one when not given.")]
-Pixels = Annotated[Whole, Parameter(help="Samples along each side of the compared window.")]
+Pixels = Annotated[int, Parameter(help="Samples along each side of the compared window.")]
 Named = Annotated[str | None, Parameter(help="A lens file, or the name of a shipped lens (p2sf lenses lists them).")]
 Complete = Annotated[
     bool,

@@ -8,7 +8,7 @@ import numpy as np
 from cyclopts import Parameter
 
 from p2sf.camera import Setup, set_up
-from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Whole, check_whole
+from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, check_whole
 from p2sf.cli.screen import field_text, print_json, print_table, warn
 from p2sf.errors import RequestError
 from p2sf.lens.source import Source
@@ -58,7 +58,7 @@ PERCENTILES = 10, 50, 90
 
 GradeOption = Annotated[Literal["commercial", "precision", "high"], Parameter(help="Usual tolerances of this grade.")]
 SetFile = Annotated[Path | None, Parameter("--set", negative="", help="Tolerances of one's own, a file in TOML.")]
-BuildsOption = Annotated[Whole, Parameter(help="How many lenses are built at random.")]
+BuildsOption = Annotated[int, Parameter(help="How many lenses are built at random.")]
 RmsLimit = Annotated[
     float | None, Parameter(help="A good lens has at most this RMS wavefront at every field, waves.", negative="")
 ]
@@ -73,7 +73,7 @@ ShiftLimit = Annotated[
 ]
 By = Annotated[Criterion, Parameter(help="What errors are sorted by.")]
 Frequency = Annotated[float, Parameter(help="Of the contrast, cycles per mm on the sensor.", negative="")]
-Seed = Annotated[Whole, Parameter(help="Another number draws other lenses.")]
+Seed = Annotated[int, Parameter(help="Another number draws other lenses.")]
 
 
 def tolerance(

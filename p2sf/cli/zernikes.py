@@ -8,7 +8,7 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 
 from p2sf.camera import set_up
-from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, Whole, check_output
+from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, check_output
 from p2sf.cli.screen import FILLED, Row, heading, print_json, print_table, warn
 from p2sf.cli.spots import Clip
 from p2sf.files.writing import write_beside
@@ -17,7 +17,7 @@ from p2sf.pupil.zernike_terms import ZernikeOrder
 from p2sf.raytrace.zernike_fit import USUAL_TERMS, ZernikeFit, zernike_fit
 
 Basis = Annotated[ZernikeOrder, Parameter(help="Noll's order, waves RMS, or the Fringe order, peak waves.")]
-Terms = Annotated[Whole, Parameter(help="How many terms, from the first.")]
+Terms = Annotated[int, Parameter(help="How many terms, from the first.")]
 COLUMNS = ("term", "n", "m", "name", "waves", "share of variance")
 
 

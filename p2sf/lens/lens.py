@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from p2sf.arguments import NUMBERS, check_arguments, check_fields
-from p2sf.conventions import NM_PER_UM, FloatOrArray, angle_from_axis
+from p2sf.conventions import FARTHEST_MM, NM_PER_UM, FloatOrArray, angle_from_axis
 from p2sf.errors import GeometryError, RequestError
 from p2sf.glass.media import AIR, MIRROR, Medium, parse_medium, transmittance_of
 from p2sf.html import html_table
@@ -23,6 +23,7 @@ from p2sf.lens.rim import Rim
 from p2sf.lens.shapes import Conic, EvenTerms, Part, RadialPart, SagAndSlope, Shape
 from p2sf.lens.transmission import Transmission
 from p2sf.messages import Alternatives, Message
+from p2sf.parameters import FASTEST, SLOWEST
 from p2sf.pupil.domain import PupilDomain, domain_of
 from p2sf.pupil.mask import CLEAR, PupilMask
 
@@ -295,6 +296,7 @@ class Lens:
             raise GeometryError(
                 "aperture {kind} is {value}; give a positive number", kind=self.aperture.kind, value=self.aperture.value
             )
+        _check_size(self.aperture)
         if len(self.fields_x_deg) not in (0, len(self.fields_deg)):
             raise GeometryError(
                 "the lens has {across} field angles along x for {count} along y; give as many, or none",
@@ -482,6 +484,19 @@ class Lens:
         return tuple(accumulate(self.motions, Motion.then))
 
 
+def _check_size(aperture: Aperture) -> None:
+    """Raise GeometryError for an aperture that no lens has."""
+    low, high = (FASTEST, SLOWEST) if aperture.kind == "f_number" else (SMALLEST_RADIUS_MM, FARTHEST_MM)
+    if not low <= aperture.value <= high:
+        raise GeometryError(
+            "aperture {kind} is {value:g}; give a number from {low:g} to {high:g}",
+            kind=aperture.kind,
+            value=aperture.value,
+            low=low,
+            high=high,
+        )
+
+
 def _check_weights(lens: Lens) -> None:
     weights = lens.wavelength_weights
     if len(weights) not in (0, len(lens.wavelengths_nm)) or (weights and not (min(weights) >= 0 < max(weights) < inf)):
@@ -661,11 +676,13 @@ def _check_surfaces(surfaces: tuple[Surface, ...]) -> None:
                 surface=number,
                 medium=repr(surface.medium),
             )
-        if not isfinite(surface.thickness):
+        if not abs(surface.thickness) <= FARTHEST_MM:
             raise GeometryError(
-                "surface {surface}: thickness {thickness} mm; give a finite number",
+                "surface {surface}: thickness {thickness} mm; give a number from {low:g} to {high:g}",
                 surface=number,
                 thickness=surface.thickness,
+                low=-FARTHEST_MM,
+                high=FARTHEST_MM,
             )
         if not surface.semi_diameter > 0:
             raise GeometryError(
