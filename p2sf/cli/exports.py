@@ -13,7 +13,7 @@ from p2sf.database.render import Sampling
 from p2sf.files.writing import plain
 
 if TYPE_CHECKING:
-    from p2sf.export import Cube
+    from p2sf.export.psf_cube import Cube
 
 # The first ending of a format is the one a file gets when no --output is given.
 ENDINGS = {"iset": (".mat",), "fits": (".fits", ".fit", ".fts"), "tiff": (".tif", ".tiff"), "csv": (".csv",)}

@@ -62,7 +62,7 @@ def report(
             warn(why)
         return
     with percent_line() as tell:
-        made = report_of(state, tell or (lambda _: None))
+        made = report_of(state, tell)
     if output:
         write_report(made, output)
     if as_json:
@@ -110,6 +110,6 @@ def _write_sheets(output: Path | None, language: str, paper: str) -> None:
     if output is None:
         raise ExportError("a folder for the sheets is missing; name one with -o, or results of a class with --results")
     with percent_line() as tell:
-        written = write_course(output, language, PAPERS[paper], tell or (lambda _: None))
+        written = write_course(output, language, PAPERS[paper], tell)
     sheets = sum(path.suffix == ".pdf" for path in written)
     print_table(str(output), ("sheets", "pages of lectures"), [(str(sheets), str(len(written) - sheets))])

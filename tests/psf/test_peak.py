@@ -1,6 +1,7 @@
 """The Strehl ratio: the peak of the continuous picture, whatever samples show, against dense sums over the pupil."""
 
 import pickle
+import tracemalloc
 from dataclasses import FrozenInstanceError
 
 import numpy as np
@@ -17,6 +18,8 @@ from p2sf.psf.methods import render
 from p2sf.psf.pixel_integrals import render_integrated
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import seidel_psf
+from p2sf.psf.sums.plane_waves import BLOCK, Waves
+from p2sf.pupil.domain import WHOLE
 from p2sf.raytrace.pencil import pencil
 from tests.support.waves import waves
 
@@ -164,3 +167,25 @@ def test_a_rendered_preview_looks_for_its_peak_when_that_is_read():
     assert callable(vars(psf)["_peak_um"]) and psf.azimuth_deg and psf.predicted_error is not None
     again = psf.with_fields(seconds=0.0)
     assert again.strehl == psf.strehl and again.peak_um == psf.peak_um and again.values is psf.values
+
+
+def test_the_light_near_a_point_of_millions_of_waves_takes_little_memory():
+    """In blocks; all at once took 200 bytes a wave. The sums beside it are the test's own, of some of the waves."""
+    rng = np.random.default_rng(3)
+    count = 3 * BLOCK + 17
+    fx, fy = 0.2 * rng.random((2, count)) - 0.1
+    amplitude = np.exp(2j * np.pi * rng.random(count)) / count
+    tracemalloc.start()
+    value, step_x, step_y, gain = Waves(amplitude, fx, fy, WHOLE, 1.0).near(0.3, -0.7)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 200 * BLOCK
+
+    def light(x, y):
+        return abs((amplitude * np.exp(2j * np.pi * (fx * x + fy * y))).sum()) ** 2
+
+    h = 0.05  # µm: third differences leave (2π·0.1·h)² = 1e-3 of a slope
+    across = (light(0.3 + h, -0.7) - light(0.3 - h, -0.7)) / (2 * h)
+    up = (light(0.3, -0.7 + h) - light(0.3, -0.7 - h)) / (2 * h)
+    assert value == pytest.approx(light(0.3, -0.7), rel=1e-9)
+    assert across * step_x + up * step_y == pytest.approx(2 * gain, rel=1e-2) and gain > 0
