@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from numpy.typing import ArrayLike
 
 from p2sf.arguments import check_arguments, former_names
-from p2sf.camera import AS_IN_FILE, AimChoice, Camera, StopChoice, on_axis, set_up_source, with_camera
+from p2sf.camera import AS_IN_FILE, AimChoice, Camera, StopChoice, set_up_source, with_camera
 from p2sf.errors import P2SFWarning
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
@@ -96,7 +96,7 @@ def render(
     lens : Lens
         The lens, see `load_lens`.
     source : Source, optional
-        The point source; by default at infinity, on the axis, of the lens's reference wavelength.
+        The point source; by default on the axis, at the distance of the lens's object, of its reference wavelength.
     method : {"auto", "seidel", "fitted", "traced", "huygens", "spherical", "gaussian"}
         How the PSF is computed; "auto" takes the cheapest method whose predicted R² is at least ``min_r2``.
     pixels : int
@@ -140,7 +140,7 @@ def render(
     from p2sf.psf.pixel_integrals import render_integrated
     from p2sf.psf.result import warn_of_window
 
-    setup = set_up_source(lens, source or on_axis(lens), camera)
+    setup = set_up_source(lens, source, camera)
     with using_threads(threads):
         options = PsfOptions(quality, min_r2, clip)
         psf = render_integrated(setup.lens, setup.source, method, pixels, pixel_um, options, integrated)
@@ -181,7 +181,7 @@ def coefficients(
     """
     from p2sf.paraxial import seidel
 
-    setup = set_up_source(lens, source or on_axis(lens), camera)
+    setup = set_up_source(lens, source, camera)
     place = setup.source.depth_mm, setup.source.field_slope, setup.source.wavelength_um
     seidel.check_seidel(setup.lens)
     if aligned := seidel.of_aligned_lens(setup.lens):
@@ -234,7 +234,7 @@ def zernike(
     """
     from p2sf.raytrace.zernike_fit import zernike_fit
 
-    setup = set_up_source(lens, source or on_axis(lens), camera)
+    setup = set_up_source(lens, source, camera)
     return zernike_fit(setup.lens, setup.source, basis, terms, clip)
 
 
@@ -272,7 +272,7 @@ def choose_method(
     """
     from p2sf.psf.methods import choose
 
-    setup = set_up_source(lens, source or on_axis(lens), camera)
+    setup = set_up_source(lens, source, camera)
     return choose(setup.lens, setup.source, min_r2, clip)
 
 
@@ -430,6 +430,6 @@ def _pupil_parts(
     from p2sf.colour.spectrum import spectrum_of
     from p2sf.metrics.measures import parts_of
 
-    setup = set_up_source(lens, source or on_axis(lens), camera)
+    setup = set_up_source(lens, source, camera)
     wanted = None if spectrum is None else spectrum_of(spectrum)
     return parts_of(setup.lens, setup.source, spectrum=wanted, **how)

@@ -52,7 +52,7 @@ from p2sf.paraxial.pupils import (
     rim_radii,
 )
 from p2sf.pupil.mask import CLEAR, MaskSettings, PupilMask
-from p2sf.raytrace.focusing import sensor_in_focus
+from p2sf.raytrace.focusing import object_distance, sensor_in_focus
 
 if TYPE_CHECKING:
     from p2sf import Plan, Psf, Stored, Sweep, ToleranceStudy
@@ -145,7 +145,8 @@ class PointSource:
     Attributes
     ----------
     depth_mm
-        Object distance from the first vertex, mm, up to 1e16; inf is allowed.
+        Object distance from the first vertex, mm, up to 1e16; inf is allowed. By default that of the file, see
+        `p2sf.raytrace.focusing.object_distance`.
     field_deg
         Chief-ray angle at the entrance pupil, degrees, also at finite depth; the angle in y if ``field_x_deg`` is
         given.
@@ -156,10 +157,10 @@ class PointSource:
     image_height_mm
         Height of the paraxial chief ray on the sensor instead of an angle, mm.
     wavelength_nm
-        Wavelength, nm; by default the middle wavelength of the file.
+        Wavelength, nm; by default the primary one of the file, or its middle one.
     """
 
-    depth_mm: float = inf
+    depth_mm: float | None = None
     field_deg: float | None = None
     field_x_deg: float | None = None
     object_height_mm: float | None = None
@@ -261,17 +262,22 @@ class Camera(Settings):
         field_deg: float | tuple[float, float] = 0.0,
         wavelength_nm: float | None = None,
     ) -> Source:
-        """Return a point source, by default at the distance in focus, on the axis, of the lens's middle wavelength.
+        """Return a point source, by default at the distance in focus, on the axis, of the lens's reference wavelength.
 
-        Where `focus_mm` is not stated that distance is infinity.
+        Where `focus_mm` is not stated that distance is the lens's own, see `p2sf.raytrace.focusing.object_distance`.
 
         ``field_deg``: the angle of its chief ray, degrees, or the angles (x, y). RequestError for what cannot be.
         """
         if wavelength_nm is None:
-            wavelength_nm = self.its_lens.reference_wavelength_um * NM_PER_UM
+            wavelength_nm = self.its_lens.reference_wavelength_nm
         if depth_mm is None:
-            depth_mm = inf if self.focus_mm is None else self.focus_mm
+            depth_mm = self._usual_depth
         return Source(depth_mm, field_deg=field_deg, wavelength_nm=wavelength_nm)
+
+    @property
+    def _usual_depth(self) -> float:
+        """Return the distance in focus; where it is not stated, that at which the lens's object stands."""
+        return _object_distance(self.its_lens, self) if self.focus_mm is None else self.focus_mm
 
     def psf(
         self,
@@ -318,16 +324,16 @@ class Camera(Settings):
     ) -> "Stored":
         """Return the database of this camera's PSFs, `p2sf.build_database`, whose errors it raises.
 
-        By default from half of the distance in focus, or twenty focal lengths, to infinity, from the axis to the lens's
-        widest field, and over its wavelengths. ``how``: ``interpolant``, ``fields_x_deg`` and ``path``.
+        By default from half of the distance in focus, or twenty focal lengths, to infinity, or ten per cent about a
+        near object's own distance; from the axis to the lens's widest field, and over its wavelengths. ``how``:
+        ``interpolant``, ``fields_x_deg`` and ``path``.
         """
         from p2sf import build_database
 
         lens = self.its_lens
         if depths_mm is None:
             focal = abs(float(cardinal_points(lens, lens.reference_wavelength_um).effective_focal_length))
-            focused = self.focus_mm is not None and isfinite(self.focus_mm)
-            depths_mm = [cast("float", self.focus_mm) / 2 if focused else 20 * focal, inf]
+            depths_mm = usual_depths(self._usual_depth, 20 * focal, self.focus_mm is not None)
         if fields_deg is None:
             fields_deg = np.unique([0.0, lens.widest_field_deg])
         if wavelengths_nm is None:
@@ -352,7 +358,7 @@ class Camera(Settings):
             The scene in linear light, floats, (rows, columns, 3) for red, green and blue, or (rows, columns) for light
             of the lens's middle wavelength; row 0 is the top, and a pixel as wide as the sensor's.
         depth_mm : array_like, optional
-            One depth, mm, or that of every pixel, (rows, columns); the distance in focus, or infinity, by default.
+            One depth, mm, or that of every pixel, (rows, columns); by default as for `source`.
         rtol : float
             Relative L2 error of a pixel's kernel that is tolerable.
         clip : bool
@@ -395,7 +401,7 @@ class Camera(Settings):
         photo : array_like
             Linear light, floats with white at 1, (rows, columns, 3) or (rows, columns), as for `photograph`.
         depth_mm : float, optional
-            The depth that is made sharp, mm; the distance in focus, or infinity, by default.
+            The depth that is made sharp, mm; by default as for `source`.
         noise : float, optional
             Standard deviation of the photo's noise; estimated from its quiet parts by default.
         rtol, clip
@@ -427,7 +433,7 @@ class Camera(Settings):
 
     def _depths(self, depth_mm: ArrayLike | None) -> np.ndarray:
         """Return the depths of a picture, (1,) or of every pixel, by default the distance in focus."""
-        depths = np.atleast_1d(real_array("depth_mm", (self.focus_mm or inf) if depth_mm is None else depth_mm))
+        depths = np.atleast_1d(real_array("depth_mm", self._usual_depth if depth_mm is None else depth_mm))
         if depths.size > 1:  # of one, the parameter is named
             check_depth_map(depths)
         return depths
@@ -454,7 +460,7 @@ class Camera(Settings):
     ) -> "ToleranceStudy":
         """Return what share of built lenses keeps limits, `p2sf.tolerances` of this camera, whose errors it raises.
 
-        The object is at the distance in focus, or at infinity, by default; ``how``: ``grade``, ``builds`` and ``seed``.
+        The object is by default as for `source`; ``how``: ``grade``, ``builds`` and ``seed``.
         """
         from p2sf import tolerances
 
@@ -550,18 +556,33 @@ def set_up(lens: Lens, request: Request) -> Setup:
     Raises RequestError for an impossible value, GeometryError for one this lens does not allow, and GlassError for a
     wavelength outside the data of its glasses.
     """
+    depth = _object_distance(lens, request) if request.depth_mm is None else request.depth_mm
     lens = at_position(lens, request)
-    source = Source(request.depth_mm, 0.0, wavelength_um(lens, request))
+    source = Source(depth, 0.0, wavelength_um(lens, request))
     return with_field(_with_stop(lens, request, source, request.wavelength_nm is not None), request)
 
 
-def on_axis(lens: Lens) -> Source:
-    """Return the source that a lens is seen with where none is stated: at infinity, on the axis, of its wavelength."""
-    return Source(wavelength_um=lens.reference_wavelength_um)
+def _object_distance(lens: Lens, camera: Settings) -> float:
+    """Return where the object of a lens stands with its rings turned by hand, mm; what is in focus does not move it."""
+    turned = lens if lens.positions is None else lens_at(lens, camera.zoom, camera.focus_position)
+    return object_distance(turned)
 
 
-def set_up_source(lens: Lens, source: Source, camera: Settings = AS_IN_FILE) -> Setup:
-    """Return the setup of a given source; raises as `set_up` does."""
+def usual_depths(own_mm: float, near_mm: float, focused: bool = False) -> list[float]:
+    """Return the depths, mm, that a database covers unless others are asked for.
+
+    From half of the distance in focus, or ``near_mm``, to infinity; of a lens made for a near object, within ten per
+    cent of its distance.
+    """
+    if not isfinite(own_mm):
+        return [near_mm, inf]
+    return [own_mm / 2, inf] if focused else [0.9 * own_mm, 1.1 * own_mm]
+
+
+def set_up_source(lens: Lens, source: Source | None, camera: Settings = AS_IN_FILE) -> Setup:
+    """Return the setup of a given source, by default the one that `set_up` takes, whose errors it raises."""
+    if source is None:
+        return set_up(lens, Request(**explicit_values(camera)))
     check_one(source)
     check_angle("field_deg", source.field_deg)
     setup = _with_stop(at_position(lens, camera), camera, source, True)
@@ -623,7 +644,7 @@ def _direction(request: PointSource) -> Source:
 
 
 def wavelength_um(lens: Lens, request: PointSource) -> float:
-    """Return the wavelength of a request in µm, by default the middle wavelength of the lens."""
+    """Return the wavelength of a request in µm, by default the reference wavelength of the lens."""
     if request.wavelength_nm is None:
         return lens.reference_wavelength_um
     return request.wavelength_nm / NM_PER_UM
@@ -676,7 +697,8 @@ def field_slope(setup: Setup, request: PointSource) -> float:
     """Return the field slope of the stated field; 0 when none is stated."""
     lens, wavelength, stop = setup.lens, setup.source.wavelength_um, setup.stop
     if request.object_height_mm is not None:
-        slope = field_from_object_height(lens, request.depth_mm, wavelength, request.object_height_mm, stop)
+        _check_height(request, setup.source.depth_mm)
+        slope = field_from_object_height(lens, setup.source.depth_mm, wavelength, request.object_height_mm, stop)
     elif request.image_height_mm is not None:
         slope = field_from_image_height(lens, wavelength, request.image_height_mm, stop)
     else:
@@ -744,7 +766,11 @@ def _check_one_field(request: PointSource) -> None:
             height=ParameterName(height),
             angle=ParameterName("field_deg"),
         )
-    if request.object_height_mm is not None and isinf(request.depth_mm):
+
+
+def _check_height(request: PointSource, depth_mm: float) -> None:
+    """Raise RequestError for an object height at infinity."""
+    if isinf(depth_mm):
         raise RequestError(
             "{parameter} is {value:g} mm, but an object at infinity has no height; "
             "give {depth} as well, or the field as an angle or an image height",

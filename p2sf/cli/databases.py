@@ -2,6 +2,7 @@
 
 import sys
 from dataclasses import dataclass
+from math import inf
 from pathlib import Path
 from time import perf_counter
 from typing import Annotated, Any, Literal
@@ -9,7 +10,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from cyclopts import App, Parameter
 
-from p2sf.camera import Request, set_up
+from p2sf.camera import Request, set_up, usual_depths
 from p2sf.cli.lookups import accuracy_rows
 from p2sf.cli.options import AS_IN_ITS_FILE, CameraFlags, Json, LensName, Threads, check_samples
 from p2sf.cli.screen import FILLED, Row, print_json, print_table, text, warn
@@ -26,9 +27,11 @@ from p2sf.lens.lens import Lens
 from p2sf.lensfile.library import find_lens
 from p2sf.messages import Message, ParameterName
 from p2sf.psf.methods import by_six
+from p2sf.raytrace.focusing import object_distance
 from p2sf.spans import check_ascending, depths, numbers
 from p2sf.threads import using_threads
 
+NEAR_MM, DEPTHS = 500.0, 20  # of the depths, where none are asked for
 RECTANGLE_NODES = 9  # along either side, where none are asked for
 
 app = App(name="database", help="Every PSF of a lens as a file: build one, look into one.")
@@ -41,7 +44,8 @@ class Nodes:
     Attributes
     ----------
     depths_mm
-        Object distances from the first vertex, mm; uniform in 1/depth, HIGH may be inf.
+        Object distances from the first vertex, mm; uniform in 1/depth, HIGH may be inf. 500:inf:20 when not given, or
+        20 within ten per cent of the distance of a near object that the lens is made for.
     fields_deg
         Chief-ray angles at the entrance pupil, degrees; uniform in angle.
     fields_x_deg
@@ -51,7 +55,7 @@ class Nodes:
         Wavelengths, nm.
     """
 
-    depths_mm: str = "500:inf:20"
+    depths_mm: str | None = None
     fields_deg: str | None = None
     fields_x_deg: str | None = None
     wavelengths_nm: str = "400:700:31"
@@ -112,7 +116,7 @@ def build(
     """
     _check_output(output, kind.stack)
     found = find_lens(lens)
-    setup = set_up(found, Request(**vars(camera)))
+    setup = set_up(found, Request(depth_mm=inf, **vars(camera)))
     check_kind(kind.method, kind.interpolant, bool(nodes.fields_x_deg))
     start = perf_counter()
     database = build_by(setup.lens, space_of(nodes, found, kind.method), kind.method, kind.interpolant, setup.stop)
@@ -149,8 +153,10 @@ def space_of(nodes: Nodes, lens: Lens, method: str) -> Space:
 
     One of a misaligned lens has fields along x as well, but for the six coefficients.
     """
-    distances = depths(nodes.depths_mm, "depths_mm")
-    check_ascending(distances, nodes.depths_mm, "depths_mm")
+    low, high = usual_depths(object_distance(lens), NEAR_MM)
+    text = nodes.depths_mm or f"{low!r}:{high!r}:{DEPTHS}"
+    distances = depths(text, "depths_mm")
+    check_ascending(distances, text, "depths_mm")
     widest = max(1.0, lens.widest_field_deg)
     usual, usual_x = f"0:{widest!r}:21", nodes.fields_x_deg
     if usual_x or (lens.misaligned and not by_six(method) and nodes.fields_deg is None):

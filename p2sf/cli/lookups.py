@@ -1,7 +1,7 @@
 """`p2sf psf FILE.npz`: a PSF looked up in a database, without the lens."""
 
-from dataclasses import dataclass
-from math import isinf
+from dataclasses import dataclass, replace
+from math import inf, isinf
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -59,6 +59,8 @@ def looked_up(name: str, request: Request, pixels: int, pixel_um: float | None) 
                 path=name,
             )
     moved = with_sensor_shift(stored, request.sensor_shift_um)
+    if request.depth_mm is None:
+        request = replace(request, depth_mm=stored.object_distance_mm)
     source = source_of(moved.database, request)
     psf = pixels_psf(moved.database, source, pixels, pixel_um).with_fields(provenance=moved.describe(source))
     return LookedUp(psf, stored.meta["aim"], _heading(stored, source), stored.accuracy)
@@ -95,15 +97,14 @@ def with_sensor_shift(stored: Stored, shift_um: float) -> Stored:
 
 
 def source_of(database: "Database", request: Request) -> Source:
-    """Return the source a request means; the database's middle wavelength when none is asked."""
+    """Return the source that a request with a depth means; the database's middle wavelength when none is asked."""
+    depth = inf if request.depth_mm is None else request.depth_mm
     colours = database.space.wavelengths_um
     colour = float(colours[len(colours) // 2]) if request.wavelength_nm is None else request.wavelength_nm / NM_PER_UM
     if request.image_height_mm is not None:
-        return Source(
-            request.depth_mm, _slope_of_height(database, request.depth_mm, request.image_height_mm, colour), colour
-        )
+        return Source(depth, _slope_of_height(database, depth, request.image_height_mm, colour), colour)
     angles = request.field_x_deg or 0.0, request.field_deg or 0.0
-    return Source(request.depth_mm, wavelength_um=colour, field_deg=angles)
+    return Source(depth, wavelength_um=colour, field_deg=angles)
 
 
 def _slope_of_height(database: "Database", depth_mm: float, height_mm: float, colour: float) -> float:

@@ -8,13 +8,12 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from cyclopts import Parameter
 
-from p2sf.camera import FIELDS, Request, mask_of, set_up
+from p2sf.camera import FIELDS, Request, Setup, mask_of, set_up
 from p2sf.cli.options import AS_IN_THE_FILE, LENS_ENDINGS, Asked, Json, Output, Threads, check_output
 from p2sf.cli.screen import Row, percent_line, print_json, print_table, warn
 from p2sf.cli.spots import Clip
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
 from p2sf.errors import RequestError
-from p2sf.lens.lens import Lens
 from p2sf.lensfile.library import find_lens
 from p2sf.measure.as_built import left_out, write_as_built
 from p2sf.measure.fitting.frame_fit import FrameFit
@@ -143,9 +142,10 @@ def measure(
     check_output(built, (*LENS_ENDINGS, ".npz"), lens, *pictures)
     known = None if target is None else read_target(target)
     frames = [camera.frame(path) for path in pictures]
-    design, optics, field = _scale(lens, request, frames[0])
-    if field is not None:
-        frames = [replace(frame, field_deg=field) for frame in frames]
+    setup = _setup(lens, request, frames[0])
+    optics = _scale(setup, request, frames[0])
+    if setup and any(getattr(request, name) is not None for name in ANY_FIELD):
+        frames = [replace(frame, field_deg=setup.source.field_deg) for frame in frames]
     optics = replace(optics, light=tuple(_colour(text) for text in light or ()))
     with using_threads(threads), percent_line() as tell:
         found = measure_frame(
@@ -154,8 +154,8 @@ def measure(
             FrameRequest(
                 focus_um=focus_um or [0.0] * len(frames),
                 model=model,
-                lens=design,
-                depth_mm=request.depth_mm,
+                lens=setup.lens if setup else None,
+                depth_mm=setup.source.depth_mm if setup else request.depth_mm,
                 unknowns=unknowns or (*FOCUS, *FIELD),
                 clip=clip,
                 target=known,
@@ -196,20 +196,23 @@ def _write_built(found: Measurement, path: Path) -> None:
         warn(why)
 
 
-def _scale(lens: str | None, request: Request, frame: Frame) -> tuple[Lens | None, PictureOptics, float | None]:
-    """Return the lens as asked, if any, the scale of its PSFs, and the field, if it is asked for."""
-    pitch, fields = frame.geometry.pixel_um, [name for name in ANY_FIELD if getattr(request, name) is not None]
-    for name in fields:
-        if not frame.psf or lens is None:
+def _setup(lens: str | None, request: Request, frame: Frame) -> Setup | None:
+    """Return the lens as asked, None without one; RequestError for a field of what is no single PSF of a lens."""
+    for name in ANY_FIELD:
+        if getattr(request, name) is not None and (not frame.psf or lens is None):
             raise RequestError(
                 "{parameter} is given, and says where the one point of a PSF lies beside its lens; leave it out: "
                 "points of a picture are where they are seen",
                 parameter=name,
             )
-    if lens is not None:
-        setup = set_up(find_lens(lens), request)
-        optics = lens_optics(setup.lens, request.depth_mm, setup.source.wavelength_um, pitch)
-        return setup.lens, optics, setup.source.field_deg if fields else None
+    return None if lens is None else set_up(find_lens(lens), request)
+
+
+def _scale(setup: Setup | None, request: Request, frame: Frame) -> PictureOptics:
+    """Return the scale of the PSFs of a lens, or of an f-number and a wavelength."""
+    pitch = frame.geometry.pixel_um
+    if setup:
+        return lens_optics(setup.lens, setup.source.depth_mm, setup.source.wavelength_um, pitch)
     for name in ("f_number", "wavelength_nm"):
         if getattr(request, name) is None:
             raise RequestError(
@@ -217,7 +220,7 @@ def _scale(lens: str | None, request: Request, frame: Frame) -> tuple[Lens | Non
             )
     assert request.f_number is not None and request.wavelength_nm is not None
     mask = mask_of(None, request)
-    return None, PictureOptics(1 / (2 * request.f_number), request.wavelength_nm / NM_PER_UM, pitch, mask=mask), None
+    return PictureOptics(1 / (2 * request.f_number), request.wavelength_nm / NM_PER_UM, pitch, mask=mask)
 
 
 def record(found: Measurement) -> dict[str, Any]:

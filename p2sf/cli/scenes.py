@@ -32,6 +32,7 @@ from p2sf.io.photo_files import WRITABLE, Photo, check_ending, kept_depth, read_
 from p2sf.lens.lens import Lens
 from p2sf.lensfile.library import find_lens
 from p2sf.messages import Message, ParameterName
+from p2sf.raytrace.focusing import object_distance
 from p2sf.scene import Plan, Scene, Sensor, plan, read_scene, verify
 from p2sf.scene.planning.table import plan_facts, plan_rows, plan_sentences
 from p2sf.scene.scene import DIMMEST, MOST_LIGHT, RGB
@@ -89,7 +90,7 @@ def plan_command(
 
 def _read_scene(glass: Lens, path: Path) -> Scene:
     """Return a file's scene; a focus or f-number that the lens cannot take is named as in the file."""
-    scene = read_scene(path)
+    scene = read_scene(path, object_distance(glass))
     try:
         scene.camera(glass)
     except RequestError as error:
@@ -377,7 +378,7 @@ def sharpen(
     /,
     *,
     pixel_um: Annotated[float | None, Parameter(help="Distance between the pixels of the photo on the sensor.")] = None,
-    depth_mm: Annotated[float | None, Parameter(help="The depth to sharpen; the distance in focus, or ∞.")] = None,
+    depth_mm: Annotated[float | None, Parameter(help="The depth to sharpen; that in focus, or the lens's own.")] = None,
     camera: CameraFlags = AS_IN_ITS_FILE,
     clip: Annotated[bool, Parameter(help="Stop rays at the rims of all surfaces.")] = False,
     noise: Annotated[

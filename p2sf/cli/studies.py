@@ -1,7 +1,6 @@
 """`p2sf tradeoff`, `p2sf validate` and `p2sf paper`: what methods cost, and others' figures beside our own."""
 
 from collections.abc import Sequence
-from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, BinaryIO
 
@@ -21,7 +20,11 @@ Axis = list[float] | None
 WRITTEN = (".json", ".csv", ".png")
 Several = Parameter(consume_multiple=True, negative="")
 Fields = Annotated[list[float] | None, Several, Parameter(help="Field angles, °; the file's when not given.")]
-Depths = Annotated[list[float] | None, Several, Parameter(help="Object distances, mm, inf allowed; ∞ when not given.")]
+Depths = Annotated[
+    list[float] | None,
+    Several,
+    Parameter(help="Object distances, mm, inf allowed; the lens's own when not given."),
+]
 Waves = Annotated[list[float] | None, Several, Parameter(help="Wavelengths, nm; the file's middle one when not given.")]
 Pixels = Annotated[int, Parameter(help="Samples along each side of the compared window.")]
 Named = Annotated[str | None, Parameter(help="A lens file, or the name of a shipped lens (p2sf lenses lists them).")]
@@ -79,11 +82,10 @@ def tradeoff(
         return trades.sampling(lens, output, as_json)
     check_output(output, WRITTEN, lens)
     _check(pixels, fields_deg, depths_mm, wavelengths_nm)
-    depths = depths_mm or [inf]
     found = find_lens(lens)
     rows = tradeoff.tradeoff(
         found,
-        depths_mm=depths,
+        depths_mm=depths_mm,
         fields_deg=fields_deg,
         wavelengths_nm=wavelengths_nm,
         pixels=pixels,

@@ -252,6 +252,9 @@ class Lens:
         the plane that touches it where their chief ray lands.
     absorption : bool
         Whether rays lose the light that the media behind the first surface absorb, if their catalogues state it.
+    object_distance : float, optional
+        Distance, mm, of the design's object from the first vertex, where a source stands unless it is placed elsewhere
+        (see `p2sf.raytrace.focusing.object_distance`); inf is allowed. None if it is not known.
 
     Raises
     ------
@@ -280,6 +283,7 @@ class Lens:
     reference_nm: float | None = None
     sensor_radius: float = inf
     sensor_conic: float = 0.0
+    object_distance: float | None = None
 
     def __post_init__(self) -> None:
         if isinstance(self.aperture, NUMBERS) and not isinstance(self.aperture, bool):
@@ -310,6 +314,7 @@ class Lens:
                 "wavelengths are {wavelengths} nm; give positive numbers", wavelengths=self.wavelengths_nm
             )
         _check_weights(self)
+        _check_object(self.object_distance)
         if self.aim not in AIMS:
             raise GeometryError('aim "{aim}" is unknown; choose "stop" or "paraxial"', aim=self.aim)
 
@@ -494,6 +499,15 @@ def _check_size(aperture: Aperture) -> None:
             value=aperture.value,
             low=low,
             high=high,
+        )
+
+
+def _check_object(distance: float | None) -> None:
+    if distance is not None and not (0 < distance <= FARTHEST_MM or distance == inf):
+        raise GeometryError(
+            "the object distance is {distance} mm; give a positive number up to {most:g}, or inf",
+            distance=distance,
+            most=FARTHEST_MM,
         )
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from p2sf.conventions import depth_of
 from p2sf.errors import GeometryError, RequestError
 from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.lens.properties import PROPERTIES
@@ -23,6 +24,7 @@ PARAMETER: dict[Kind, str] = {"zoom": "zoom", "focus": "focus_position"}
 Address = tuple[int, str, int]
 """Address of a number in a lens: surface from 0 (−1: the lens itself), field, index in the field's tuple."""
 WHOLE = -1
+OBJECT_VERGENCE: Address = (WHOLE, "object_distance", 0)
 FIELDS = ("fields_deg", "fields_x_deg")
 KEPT = ("name", "title", "source", "comment", "character", "aim", "mask", "absorption", "sensor_radius", "sensor_conic")
 """Fields of a lens that are the same at every position; in columns they have their defaults."""
@@ -207,8 +209,8 @@ def interpolate_lens(positions: Positions, place: tuple[float, ...]) -> Lens:
     """Return the plain lens with its rings at ``place``, one number for each axis, within its scale.
 
     At a column it is the lens of that column. Between columns every number that varies is interpolated by a monotone
-    cubic (`scipy.interpolate.PchipInterpolator`), radii as curvatures; everything else, such as a glass, is taken from
-    the nearest column.
+    cubic (`scipy.interpolate.PchipInterpolator`), radii as curvatures and the object's distance as vergence; everything
+    else, such as a glass, is taken from the nearest column.
     """
     lenses = positions.lenses
     for axis, there in reversed(list(zip(positions.axes, place, strict=True))):
@@ -229,9 +231,11 @@ def _along(axis: Axis, lenses: tuple[Lens, ...], place: float) -> Lens:
     along_y, along_x = (
         tuple(values.get((WHOLE, name, k), field) for k, field in enumerate(getattr(near, name))) for name in FIELDS
     )
+    vergence = values.get(OBJECT_VERGENCE)
     return replace(
         near,
         surfaces=surfaces,
+        object_distance=near.object_distance if vergence is None else depth_of(vergence),
         aperture=Aperture(near.aperture.kind, values.get((WHOLE, near.aperture.kind, 0), near.aperture.value)),
         fields_deg=along_y,
         fields_x_deg=along_x,
@@ -259,6 +263,8 @@ def _numbers(lens: Lens) -> dict[Address, float]:
     """Return every number of a lens that can vary continuously; a radius as its curvature, which may pass through 0."""
     found: dict[Address, float] = {(WHOLE, n, k): f for n in FIELDS for k, f in enumerate(getattr(lens, n))}
     found[WHOLE, lens.aperture.kind, 0] = lens.aperture.value
+    if lens.object_distance is not None:
+        found[OBJECT_VERGENCE] = 1 / lens.object_distance
     for number, surface in enumerate(lens.surfaces):
         for entry in fields(Surface):
             value = surface.curvature if entry.name == "radius" else getattr(surface, entry.name)

@@ -67,7 +67,19 @@ def assemble(raw: RawLens, sources: GlassSources, notes: Notebook, source: LensT
     lens = _with_line(lambda: _with_vignetting(lens, raw, notes), raw, source, None)
     _note_telecentric(lens, raw, notes)
     lens = _with_line(lambda: _with_curved_sensor(lens, raw, notes), raw, source, raw.image.line if raw.image else None)
-    return conjugates.with_object_named(lens, raw.object_distance * raw.unit_mm)
+    return _with_line(lambda: _with_object(lens, raw, notes), raw, source, None)
+
+
+def _with_object(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
+    """Return the lens with the distance of the file's object; one behind the first surface is left out, and noted."""
+    distance = raw.object_distance * raw.unit_mm
+    if not raw.object_stated:
+        return lens
+    if distance > 0:
+        return replace(lens, object_distance=distance)
+    told = "the file's object is at {distance:.6g} mm, not before the first surface, where alone a source can stand"
+    notes.add("caution", told, distance=distance)
+    return lens
 
 
 def _with_curved_sensor(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
@@ -417,12 +429,6 @@ def _read_notes(lens: Lens, raw: RawLens, notes: Notebook) -> None:
             )
     if raw.unit_mm != 1:
         notes.add("read", "lengths converted to mm from units of {unit:g} mm", unit=raw.unit_mm)
-    if isfinite(raw.object_distance):
-        notes.add(
-            "read",
-            "the file's object is at {distance:.6g} mm; ask for this depth to see the file's image",
-            distance=raw.object_distance * raw.unit_mm,
-        )
 
 
 def _with_vignetting(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:

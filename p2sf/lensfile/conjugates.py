@@ -4,7 +4,7 @@ The two basis rays are traced in plain floats, because an import needs them at s
 has its aperture.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import asin, atan, degrees, inf, isfinite, radians, tan
 
 from p2sf.errors import GeometryError
@@ -197,14 +197,6 @@ def _height_per_slope(raw: RawLens, rays: Paraxial) -> float:
     image = -rays.image_index * (a + b * start) / slope if slope else inf
     y, nu = -pupil, rays.object_index
     return a * y + b * nu + (c * y + d * nu) / rays.image_index * image
-
-
-def with_object_named(lens: Lens, distance_mm: float) -> Lens:
-    """Return the lens with a comment that states the file's object distance, which a lens does not hold."""
-    if not isfinite(distance_mm):
-        return lens
-    words = f"The file's object stands {distance_mm:.6g} mm before the first surface."
-    return replace(lens, comment=f"{lens.comment}\n{words}".strip())
 
 
 def degrees_of(slopes: list[tuple[float, float]]) -> tuple[tuple[float, float], ...]:

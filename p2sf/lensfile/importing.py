@@ -4,6 +4,7 @@ import os
 import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
+from math import isfinite
 from pathlib import Path
 
 from p2sf.errors import LensFileError
@@ -25,6 +26,8 @@ from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.report import ImportReport, Notebook
 from p2sf.lensfile.source_text import LensText, read_source
 from p2sf.lensfile.toml.lens import parse_toml
+from p2sf.messages import Message
+from p2sf.raytrace.focusing import object_distance
 
 
 @dataclass(frozen=True)
@@ -60,6 +63,11 @@ def _json(keys: str) -> re.Pattern[str]:
 
 
 GAP = r"[^\S\n]*+"  # blanks of one line: with \s, blank lines would cost the square of their number
+INFINITY = Message("infinity")
+STATED = "the file's object is at {depth}, where sources stand unless they are placed elsewhere"
+UNSTATED = "the file does not say where its object is; sources stand at {depth} unless they are placed elsewhere"
+IN_FOCUS = "the file does not say where its object is; sources stand in focus at {depth} unless placed elsewhere"
+
 # The head of crayg's sections, or a row of an iris.
 FX = rf"^{GAP}\[(elements|surfaces)\]|^{GAP}[-+.\deE]++[ \t](?>[-+.\deE/ \t]{{2,}})(?<=[ \t])iris\b"
 JSON_ENDINGS = (".json", ".roa")
@@ -108,7 +116,15 @@ def import_text(source: LensText, sources: GlassSources) -> Import:
     lens = found.read(source, sources, notes)
     if lens.name == "lens":
         lens = replace(lens, name=_name(source.path))
+    _note_object(lens, notes)
     return Import(lens, ImportReport(source.path, found.name, source.encoding, tuple(notes.notes)))
+
+
+def _note_object(lens: Lens, notes: Notebook) -> None:
+    """Note where a source stands that is not placed elsewhere."""
+    depth = object_distance(lens)
+    told = STATED if lens.object_distance is not None else IN_FOCUS if isfinite(depth) else UNSTATED
+    notes.add("read", told, depth=Message("{value:.6g} mm", value=depth) if isfinite(depth) else INFINITY)
 
 
 def recognise(source: LensText) -> Format:

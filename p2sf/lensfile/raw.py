@@ -178,6 +178,7 @@ class RawLens:
     title: str = ""
     source: str = ""
     sensor_stated: bool = True
+    object_stated: bool = True
     image: RawSurface | None = None
     sensor_before: tuple[Placement, ...] = ()
     stated: list[Stated] = field(default_factory=list)

@@ -31,9 +31,10 @@ from p2sf.lensfile.surface_endings import check_endings, check_plain, in_own_axe
 from p2sf.lensfile.toml.columns import columns_of
 from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.messages import Message
-from p2sf.paraxial.positions import focused_vergence, matches_columns
+from p2sf.paraxial.positions import matches_columns
 from p2sf.paraxial.pupils import stop_rim
 from p2sf.pupil.mask import PupilMask
+from p2sf.raytrace.focusing import focused_distance, object_distance
 
 SILICA_LABEL = "main/SiO2/Malitson"
 ZEMAX_APERTURES = {"entrance_pupil_diameter": "ENPD", "f_number": "FNUM"}
@@ -110,14 +111,16 @@ def _check_aligned(lens: Lens, what: Message) -> None:
 
 
 def lens_to_zmx(lens: Lens, stem: str = "lens") -> str:
-    """Return the lens as a Zemax prescription, object at infinity; LensFileError for what such a file cannot hold.
+    """Return the lens as a Zemax prescription; LensFileError for what such a file cannot hold.
 
     The columns of a zoom are its configurations, the present position the one that its surfaces show if it is a column.
     """
     check_endings(lens, ZEMAX)
     _check_zemax_columns(lens)
     stop = lens.stop_surface or limiting_rim(lens, lens.reference_wavelength_um)[0]
-    lines = [*_zemax_head(lens, _makers(lens, stem)), "SURF 0", "  TYPE STANDARD", "  CURV 0.0", "  DISZ INFINITY"]
+    distance = object_distance(lens)
+    far = digits(distance) if isfinite(distance) else "INFINITY"
+    lines = [*_zemax_head(lens, _makers(lens, stem)), "SURF 0", "  TYPE STANDARD", "  CURV 0.0", f"  DISZ {far}"]
     if lens.object_medium != AIR:
         lines.append(_zemax_glass(lens.object_medium))
     rows = [row for number in range(1, len(lens.surfaces) + 1) for row in _zemax_rows(lens, number, stop)]
@@ -142,10 +145,9 @@ def _zemax_configurations(lens: Lens, stop: int) -> list[str]:
     lines = [f"MNUM {len(columns)} {(lens.positions.column or 0) + 1}"]
     lines += [f'LTTL 0 {k} "{name}" 0 0 0 1 1 0 0.0 "" 0' for k, name in enumerate(axis.columns, 1)]
     stated = [_zemax_numbers(column, stop) for column in columns]
-    if axis.kind == "focus":
-        for numbers, column in zip(stated, columns, strict=True):
-            vergence = focused_vergence(column)
-            numbers["THIC", 0] = 1 / vergence if vergence > 1 / FAR else FAR
+    for numbers, column in zip(stated, columns, strict=True):
+        focused = axis.kind == "focus" and column.object_distance is None  # which distances tell from a zoom
+        numbers["THIC", 0] = min(FAR, focused_distance(column) if focused else object_distance(column))
     for key in stated[0]:
         values = [numbers.get(key) for numbers in stated]
         if len(set(values)) > 1:

@@ -8,6 +8,7 @@ import os
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from math import inf
 from pathlib import Path
 from typing import Any
 
@@ -41,6 +42,7 @@ from p2sf.measure.target import Target, TargetMatch, expected_places, match_targ
 from p2sf.messages import Message
 from p2sf.parameters import check_finite
 from p2sf.psf.record import versions
+from p2sf.raytrace.focusing import object_distance
 from p2sf.threads import for_each
 
 FEWEST = 5  # points of a frame whose field is fitted too
@@ -112,16 +114,16 @@ class FrameRequest:
     ``focus_um``: how much farther from the lens the sensor was at each frame, 0 if not given. ``model``: of single
     points, each fitted by itself where ``singly``. ``lens``: as designed, from which the whole frame departs by
     ``unknowns``, and every point by four coefficients, which are added to the lens's own; a model with a map starts
-    from the lens's. ``depth_mm``: of the points. ``clip``: the lens's rims end pupils. ``target``: tells where points
-    belong and where the axis meets the sensor, which is the frame's otherwise. ``f_number_error``: one standard
-    deviation of the f-number as stated, percent; unless 0, the f-number is the last unknown of the frame, and single
-    points are fitted with the one found.
+    from the lens's. ``depth_mm``: of the points, by default that of the lens's object. ``clip``: the lens's rims end
+    pupils. ``target``: tells where points belong and where the axis meets the sensor, which is the frame's otherwise.
+    ``f_number_error``: one standard deviation of the f-number as stated, percent; unless 0, the f-number is the last
+    unknown of the frame, and single points are fitted with the one found.
     """
 
     focus_um: Sequence[float] = (0.0,)
     model: str = SIX
     lens: Lens | None = None
-    depth_mm: float = float("inf")
+    depth_mm: float | None = None
     unknowns: Sequence[str] = (*FOCUS, *FIELD)
     singly: bool = True
     clip: bool = False
@@ -148,6 +150,8 @@ def measure_frame(
         )
     asked = asked or FrameRequest()
     lens, depth_mm, singly, f_number_error = asked.lens, asked.depth_mm, asked.singly, asked.f_number_error
+    if depth_mm is None:
+        depth_mm = inf if lens is None else object_distance(lens)
     _check(frames, asked.focus_um, asked.model, f_number_error)
     points = in_grid(find_points(frames[0], optics))
     half = window_half(points)

@@ -16,6 +16,7 @@ from p2sf.measure.fitting.point_model import PictureOptics, PixelSum
 from p2sf.measure.fitting.pupil_nodes import counts_for, lens_nodes
 from p2sf.measure.frame import Frame, FrameGeometry
 from p2sf.raytrace.fit import FittedPencil, fit
+from p2sf.raytrace.focusing import object_distance
 
 RESIDUAL_WAVES = 2e-4  # of the fit to rays
 FINER = 2  # more points across a pixel
@@ -54,14 +55,16 @@ def simulated_frame(
     places_mm: np.ndarray,
     geometry: FrameGeometry,
     exposure: Exposure | None = None,
-    depth_mm: float = inf,
+    depth_mm: float | None = None,
     wavelength_um: float | None = None,
 ) -> Frame:
     """Return the picture of points whose chief rays land at ``places_mm``, (points, 2), x and y up from the axis.
 
-    Raises RequestError for a place off the sensor, and what the lens raises for its points.
+    ``depth_mm``: by default that of the lens's object. Raises RequestError for a place off the sensor, and what the
+    lens raises for its points.
     """
     exposure = exposure or Exposure()
+    depth_mm = object_distance(lens) if depth_mm is None else depth_mm
     wave = wavelength_um or lens.reference_wavelength_um
     values = np.zeros((geometry.rows, geometry.columns))
     places = np.asarray(places_mm, float)

@@ -11,6 +11,8 @@ from p2sf.paraxial import positions
 from p2sf.paraxial.first_order import cardinal_points, image_distance
 from p2sf.raytrace.field_curves import real_foci
 
+FAR_FOCAL_LENGTHS = 30.0  # a sensor in focus beyond them is in effect set for infinity
+FAR_MM = 1e6  # six digits in a file do not distinguish a focus at a kilometre from infinity
 FAR = 20.0  # focal lengths to the farther of two objects by whose images the focused one is found; the other is at half
 
 
@@ -41,6 +43,25 @@ def focused_vergence(lens: Lens) -> float:
         if b and isfinite(a + b):
             return -a / b / far
     return positions.focused_vergence(lens)
+
+
+def focused_distance(lens: Lens) -> float:
+    """Return the object distance in mm whose paraxial image lies on the sensor; inf at or beyond infinity."""
+    vergence = focused_vergence(lens)
+    return 1 / vergence if vergence > 1 / FAR_MM else inf
+
+
+@lru_cache(maxsize=64)
+def object_distance(lens: Lens) -> float:
+    """Return the distance in mm at which a source stands that is not placed elsewhere: that of the lens's design.
+
+    Where it is not known, the distance that the sensor is in focus for, or infinity from thirty focal lengths on.
+    """
+    if lens.object_distance is not None:
+        return lens.object_distance
+    focused = focused_distance(lens)
+    focal = abs(float(cardinal_points(lens, lens.reference_wavelength_um).effective_focal_length))
+    return float(f"{focused:.6g}") if focused <= FAR_FOCAL_LENGTHS * focal < inf else inf
 
 
 @lru_cache(maxsize=128)

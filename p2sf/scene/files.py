@@ -2,6 +2,7 @@
 
 import os
 from dataclasses import fields
+from math import inf
 from pathlib import Path
 from typing import Any
 
@@ -36,8 +37,8 @@ WHOLE = "rows", "columns", "bits", "black_level"
 COUNTING = "full_well", "read_noise", "fill_factor"
 
 
-def read_scene(path: str | os.PathLike[str]) -> Scene:
-    """Return the scene of a TOML file; RequestError states the file and the correction."""
+def read_scene(path: str | os.PathLike[str], usual_mm: float = inf) -> Scene:
+    """Return the scene of a TOML file, ``usual_mm`` away where it states no depth; RequestError."""
     try:
         table = toml_table(read_text(path))
     except OSError as error:
@@ -49,7 +50,7 @@ def read_scene(path: str | os.PathLike[str]) -> Scene:
             "{path} is not valid TOML: {reason}; correct it", path=str(path), reason=str(error)
         ) from error
     try:
-        return scene_from(table, Path(path))
+        return scene_from(table, Path(path), usual_mm)
     except RequestError as error:
         # As text, so that keys of the file do not become options of the command line.
         raise RequestError("{path}: {error}", path=str(path), error=str(error)) from error
@@ -61,7 +62,7 @@ def read_scene(path: str | os.PathLike[str]) -> Scene:
         ) from error
 
 
-def scene_from(table: dict, path: Path) -> Scene:
+def scene_from(table: dict, path: Path, usual_mm: float = inf) -> Scene:
     """Return the scene of a parsed TOML table; paths are relative to the file."""
     _check_keys(table, "")
     sensor, depth = table.get("sensor"), table.get("depth", {})
@@ -76,7 +77,7 @@ def scene_from(table: dict, path: Path) -> Scene:
     missing = {"rows", "columns", "pixel_um"} - set(sensor)
     if missing:
         raise RequestError("[sensor] lacks {missing}; add it", missing=tuple(sorted(missing)))
-    far = _number("far_mm", depth.get("far_mm", depth.get("near_mm", "inf")))
+    far = _number("far_mm", depth.get("far_mm", depth.get("near_mm", usual_mm)))
     given: dict[str, Any] = {key: table[key] for key in ("name", "aim") if key in table}
     given |= {key: _number(key, table[key]) for key in (*LIMITS, "focus_mm", "f_number", "brightest") if key in table}
     if "tolerance" in table or "measure" in table:  # as before 0.3

@@ -14,7 +14,6 @@ from numpy.typing import ArrayLike
 
 from p2sf.arguments import check_arguments, former_names, number_list
 from p2sf.camera import AS_IN_FILE, AimChoice, Camera, set_up_source, with_camera
-from p2sf.conventions import NM_PER_UM
 from p2sf.html import html_table
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
@@ -26,6 +25,7 @@ from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import NAMES, REFERENCE, PsfOptions, method_of, render
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_samples, suitable_pixel_um
+from p2sf.raytrace.focusing import object_distance
 from p2sf.studies.other_sampling import SAMPLED, check_sampling, sampled_psf, sampled_ways
 from p2sf.studies.trade_plots import MARKERS
 from p2sf.threads import one_blas_thread, using_threads
@@ -74,7 +74,7 @@ class TradeoffTable(list[MethodCost]):
 def tradeoff(
     lens: Lens,
     *,
-    depths_mm: ArrayLike = (inf,),
+    depths_mm: ArrayLike | None = None,
     fields_deg: ArrayLike | None = None,
     wavelengths_nm: ArrayLike | None = None,
     methods: str | Sequence[str] = NAMES,
@@ -90,10 +90,10 @@ def tradeoff(
     ----------
     lens : Lens
         The lens, see `load_lens`.
-    depths_mm : array_like
-        Object distances from the first vertex, mm.
+    depths_mm : array_like, optional
+        Object distances from the first vertex, mm; by default that of the lens's object.
     fields_deg, wavelengths_nm : array_like, optional
-        Field angles, degrees, and wavelengths, nm; by default the fields and the middle wavelength of the lens.
+        Field angles, degrees, and wavelengths, nm; by default the fields and the reference wavelength of the lens.
     methods : str or sequence of str
         One method, or several.
     pixels : int
@@ -129,8 +129,9 @@ def tradeoff(
     fields = number_list("fields_deg", along_y if fields_deg is None else fields_deg).tolist()
     for angle in fields:
         check_angle("fields_deg", angle)
-    depths = number_list("depths_mm", depths_mm, infinite=True).tolist()
-    usual = lens.reference_wavelength_um * NM_PER_UM
+    own = object_distance(lens) if depths_mm is None else depths_mm
+    depths = number_list("depths_mm", own, infinite=True).tolist()
+    usual = lens.reference_wavelength_nm
     waves = number_list("wavelengths_nm", usual if wavelengths_nm is None else wavelengths_nm).tolist()
     methods = (methods,) if isinstance(methods, str) else methods
     counts = [int(count) for count in number_list("samplings", samplings)]

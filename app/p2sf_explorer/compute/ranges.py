@@ -13,7 +13,7 @@ from p2sf.paraxial.lens_checks import AIR_LIKE
 from p2sf.paraxial.pupils import f_number, paraxial_rays
 from p2sf.paraxial.seidel import coefficients
 from p2sf.paraxial.wavefront import steepest_slope
-from p2sf.raytrace.focusing import focused_vergence
+from p2sf.raytrace.focusing import FAR_MM, focused_distance, focused_vergence, object_distance
 from p2sf_explorer.state.scales import nice
 
 VISIBLE_NM = (400.0, 700.0)
@@ -22,13 +22,12 @@ FOCAL_LENGTHS = 10.0  # from the lens to the middle of a slider of distance
 ABOVE_CLOSEST = 1.2  # times the closest distance: the middle is farther than the end
 OPENED, OPENINGS = 1.4, 401  # times as fast as its file says, at most, and how many of these are tried
 TELLING_WAVES = 60.0  # of slope: a steeper wavefront is a blur of rays that shows no diffraction
-AS_GOOD_AS_INFINITE_MM = 1e6  # six digits in a file do not distinguish a focus at a kilometre from infinity
 
 
 def closest_distance(lens: Lens) -> float:
     """Return the closest sensible source distance in mm: outside the front focus by a fifth of the focal length.
 
-    For a lens that is focused closer than that (a relay), half of the distance it is focused at.
+    For a lens that is focused closer than that (a relay), or whose object stands closer, half of that distance.
     """
     cardinal = cardinal_points(lens, lens.reference_wavelength_um)
     focal = abs(float(cardinal.effective_focal_length))
@@ -36,7 +35,7 @@ def closest_distance(lens: Lens) -> float:
     if not isfinite(focal):
         return nice(2 * lens.vertices[-1] + 10)
     closest = nice(max(focus + 0.2 * focal, 0.5 * focal), (1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8))
-    focused = focused_distance(lens)
+    focused = min(focused_distance(lens), object_distance(lens))
     if focused > 1.5 * closest:
         return closest
     return 0.5 * (focus + focused) if 0 < focus < focused else 0.5 * focused
@@ -51,19 +50,14 @@ def middle_distance(lens: Lens) -> float | None:
     focal = abs(float(cardinal_points(lens, lens.reference_wavelength_um).effective_focal_length))
     if not isfinite(focal):
         return None
-    return max(min(FOCAL_LENGTHS * focal, focused_distance(lens)), ABOVE_CLOSEST * closest_distance(lens))
-
-
-def focused_distance(lens: Lens) -> float:
-    """Return the object distance in mm whose paraxial image lies on the file's sensor; inf at or beyond infinity."""
-    vergence = focused_vergence(lens)
-    return 1 / vergence if vergence > 1 / AS_GOOD_AS_INFINITE_MM else inf
+    near = min(FOCAL_LENGTHS * focal, focused_distance(lens), object_distance(lens))
+    return max(near, ABOVE_CLOSEST * closest_distance(lens))
 
 
 def file_focus(lens: Lens) -> float:
     """Return `focused_distance`, but negative for a sensor nearer to the lens than the image of infinity is, mm."""
     vergence = focused_vergence(lens)
-    return 1 / vergence if abs(vergence) > 1 / AS_GOOD_AS_INFINITE_MM else inf
+    return 1 / vergence if abs(vergence) > 1 / FAR_MM else inf
 
 
 @lru_cache(maxsize=32)

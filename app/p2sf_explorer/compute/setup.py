@@ -7,10 +7,7 @@ from functools import lru_cache
 from math import inf, isfinite
 from pathlib import Path
 
-import numpy as np
-
 from p2sf.camera import AS_IN_FILE, Request, Settings, Setup, mask_of, set_up, with_field
-from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GeometryError, P2SFError
 from p2sf.lens.lens import Lens, with_mask
 from p2sf.lens.positions import Axis, Kind
@@ -22,12 +19,12 @@ from p2sf.paraxial.seidel import Coefficients, coefficients
 from p2sf.psf.methods import by_six
 from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.raytrace.field_geometry import Cone, cone
+from p2sf.raytrace.focusing import object_distance
 from p2sf.tolerance.errors_of_build import MOVES, source_of_build
 from p2sf_explorer.compute.ranges import (
     closest_distance,
     fastest_f_number,
     file_focus,
-    focused_distance,
     middle_distance,
     telling_field,
     wavelength_range,
@@ -352,7 +349,7 @@ def _field_end(widest: float) -> float:
 
 
 def default_state(name: str, lens_text: str | None = None) -> State:
-    """Return the state a lens is first shown in: its own focus, a field worth showing, its middle wavelength."""
+    """Return the state a lens is first shown in: its own object and wavelength, and a field worth showing."""
     return _defaults(new_state(lens=name, lens_text=lens_text), prescription(new_state(lens=name, lens_text=lens_text)))
 
 
@@ -366,11 +363,9 @@ def first_state() -> State:
 
 @lru_cache(maxsize=32)
 def _defaults(state: State, lens: Lens) -> State:
-    focused = focused_distance(lens)
-    focal = abs(float(cardinal_points(lens, lens.reference_wavelength_um).effective_focal_length))
-    depth = inf if focused > 30 * focal or not isfinite(focal) else float(np.round(focused, 3))
-    wavelength = lens.reference_wavelength_um * NM_PER_UM
+    depth = object_distance(lens)
     x, y = telling_field(lens, depth)
+    wavelength = lens.reference_wavelength_nm
     return change(state, depth_mm=depth, field_deg=y, field_x_deg=x, wavelength_nm=wavelength, aim=lens.aim)
 
 

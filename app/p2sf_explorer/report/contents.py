@@ -179,7 +179,7 @@ def requested_state(name: str, request: Request) -> State:
     lens, first = find_lens(name), default_state(name)
     given = explicit_values(request)
     setup = set_up(lens, request)
-    given |= {"wavelength_nm": NM_PER_UM * setup.source.wavelength_um}
+    given |= {"depth_mm": setup.source.depth_mm, "wavelength_nm": NM_PER_UM * setup.source.wavelength_um}
     if given.keys() & {"field_deg", "object_height_mm", "image_height_mm"}:
         given["field_deg"] = setup.field_deg
     given = {key: value for key, value in given.items() if not key.endswith("_height_mm")}

@@ -1,6 +1,7 @@
 """The database that a script builds: `p2sf.build_database`."""
 
 import warnings
+from math import inf
 from os import PathLike
 from typing import Literal
 
@@ -93,7 +94,7 @@ def build_database(
     check_kind(method, interpolant, fields_x_deg is not None)
     fields = _slopes("fields_deg", fields_deg)
     fields_x = None if fields_x_deg is None else _slopes("fields_x_deg", fields_x_deg)
-    setup = set_up(lens, Request(**explicit_values(camera)))
+    setup = set_up(lens, Request(depth_mm=inf, **explicit_values(camera)))
     depths, waves = real_array("depths_mm", depths_mm), real_array("wavelengths_nm", wavelengths_nm)
     space = Space(depths, fields, waves / NM_PER_UM, fields_x)
     database = build_by(setup.lens, space, method, interpolant, setup.stop)

@@ -33,6 +33,7 @@ from p2sf.psf.record import versions
 from p2sf.psf.result import Psf, warn_of_window
 from p2sf.psf.seidel import check_samples
 from p2sf.pupil.mask import PupilMask
+from p2sf.raytrace.focusing import object_distance
 
 if TYPE_CHECKING:
     import xarray
@@ -85,6 +86,12 @@ class Stored:
         return self._space.depths_mm
 
     @property
+    def object_distance_mm(self) -> float:
+        """Return the distance of the lens's object, mm, infinite in files before 0.3: the depth unless one is given."""
+        stated = self.meta.get("object_distance_mm")
+        return inf if stated is None else float(stated)
+
+    @property
     def fields_deg(self) -> np.ndarray:
         """Return the nodes along the field, (n,), degrees; for a rectangle of fields those along y."""
         return degrees_from_slope(self._space.field_slopes)
@@ -110,7 +117,7 @@ class Stored:
         self,
         source: Source | None = None,
         *,
-        depth_mm: ArrayLike = inf,
+        depth_mm: ArrayLike | None = None,
         field_deg: ArrayLike = 0.0,
         wavelength_nm: ArrayLike | None = None,
         field_x_deg: ArrayLike | None = None,
@@ -122,8 +129,8 @@ class Stored:
         source : Source, optional
             One source, in place of the arrays.
         depth_mm, field_deg, wavelength_nm, field_x_deg : array_like
-            Object distances, mm, by default infinite; angles, degrees, by default on the axis; wavelengths, nm, by
-            default the middle one. Of any shapes that broadcast, which is the shape of every coefficient.
+            Object distances, mm, by default the lens's own; angles, degrees, by default on the axis; wavelengths, nm,
+            by default the middle one. Of any shapes that broadcast, which is the shape of every coefficient.
 
         Raises
         ------
@@ -145,7 +152,8 @@ class Stored:
             place = source.depth_mm, source.field_slope, source.wavelength_um
             one: Coefficients = self.database.coefficients(*map(float, place))
             return one
-        depth, *slopes, wavelength = points_of(self._space, depth_mm, field_deg, wavelength_nm, field_x_deg)
+        own_depth = self.object_distance_mm if depth_mm is None else depth_mm
+        depth, *slopes, wavelength = points_of(self._space, own_depth, field_deg, wavelength_nm, field_x_deg)
         many: Coefficients = self.database.coefficients(depth, reduce(np.hypot, slopes), wavelength)
         return Coefficients(**dict(zip(vars(many), np.broadcast_arrays(*vars(many).values()), strict=True)))
 
@@ -153,7 +161,7 @@ class Stored:
     def psfs(
         self,
         *,
-        depth_mm: ArrayLike = inf,
+        depth_mm: ArrayLike | None = None,
         field_deg: ArrayLike = 0.0,
         wavelength_nm: ArrayLike | None = None,
         field_x_deg: ArrayLike | None = None,
@@ -189,7 +197,8 @@ class Stored:
         GeometryError, SamplingError
             Where there is no PSF to sample.
         """
-        points = points_of(self._space, depth_mm, field_deg, wavelength_nm, field_x_deg)
+        own_depth = self.object_distance_mm if depth_mm is None else depth_mm
+        points = points_of(self._space, own_depth, field_deg, wavelength_nm, field_x_deg)
         check_samples(pixels, pixel_um)
         found: np.ndarray = psfs_into(self.database, points, Sampling(pixels, pixel_um), out)
         return found
@@ -293,6 +302,7 @@ def provenance(database: Database, lens: Lens, stop: Stop | None = None) -> dict
             "glasses": [{"glass": label, "data": source} for label, source in _glasses(lens)],
             "stop": {"surface": int(stop.surface), "semi_diameter_mm": float(stop.semi_diameter)},
             **setting(lens, stop),
+            "object_distance_mm": object_distance(lens),
             **_mask_record(database.mask),
             "covers": {
                 "depth_mm": [space.depths_mm[0], space.depths_mm[-1]],

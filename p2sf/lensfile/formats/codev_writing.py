@@ -23,6 +23,7 @@ from p2sf.lensfile.raw import RawGlass
 from p2sf.lensfile.source_text import digits
 from p2sf.lensfile.surface_endings import check_endings, check_plain, in_own_axes, type_in_file
 from p2sf.paraxial.pupils import stop_rim
+from p2sf.raytrace.focusing import object_distance
 
 APERTURES = {"entrance_pupil_diameter": "EPD", "f_number": "FNO"}
 HIGHEST_ODD = 30
@@ -47,7 +48,7 @@ class CodeVRow(NamedTuple):
 
 
 def lens_to_seq(lens: Lens) -> str:
-    """Return the lens as CODE V commands, object at infinity; LensFileError for what such a file cannot hold.
+    """Return the lens as CODE V commands; LensFileError for what such a file cannot hold.
 
     Breaks of the coordinates are planes of their own with XDE to CDE, where they are not a surface's own decentre, with
     DAR or BEN behind it. Glasses of no maker known here are private ones, with their indices at the lens's wavelengths.
@@ -68,7 +69,7 @@ def lens_to_seq(lens: Lens) -> str:
     bent = [f"SI {digits(lens.sensor_radius if lens.sensor_surface.curvature else 0.0)} 0.0"]
     bent += ["ASP", f"K {digits(lens.sensor_conic)}"] * bool(lens.sensor_conic)
     behind = f" {_glass(lens.object_medium, private)}" if lens.object_medium != AIR else ""
-    head = [*_head(lens), *_catalogue(lens, private), f"SO 0.0 {digits(FAR)}{behind}"]
+    head = [*_head(lens), *_catalogue(lens, private), f"SO 0.0 {digits(min(FAR, object_distance(lens)))}{behind}"]
     return "\n".join([*head, *surfaces, *bent, *_tilts("", image), "GO", ""])
 
 

@@ -88,7 +88,7 @@ class TableReading:
     sources: GlassSources
     notes: Notebook
     column: int = 0
-    raw: RawLens = field(default_factory=RawLens)
+    raw: RawLens = field(default_factory=lambda: RawLens(object_stated=False))
     separator: str = ","
     section: str = LENS
     header: list[str] = field(default_factory=list)
@@ -251,6 +251,7 @@ def _add(reading: TableReading, row: dict[str, str], line: int) -> None:
     thickness = _distance(reading, row.get("thickness", ""), line)
     if place in OBJECTS or (place == "0" and not raw.surfaces and abs(thickness) >= FAR):
         raw.object_distance = thickness if 0 < abs(thickness) < FAR else inf
+        raw.object_stated = True
         return
     label = row.get("label", "") or ("" if re.fullmatch(r"\d+", place) else row.get("surface", ""))
     surface = RawSurface(len(raw.surfaces) + 1, line, label[:60])

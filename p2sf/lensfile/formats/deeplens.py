@@ -39,7 +39,7 @@ PLASTICS = {
 def read_deeplens(source: LensText, sources: GlassSources, notes: Notebook) -> Lens:
     """Return the lens of a DeepLens file; LensFileError with its line for shapes that are not read."""
     top = read_json(source)
-    raw = RawLens(title=top.text("info").removeprefix("None"))
+    raw = RawLens(title=top.text("info").removeprefix("None"), object_stated=False)
     parts = top.parts("surfaces", "type")
     for part in parts:
         raw.surfaces.append(_surface(part, notes))

@@ -36,7 +36,7 @@ class FxReading:
     source: LensText
     sources: GlassSources
     notes: Notebook
-    raw: RawLens = field(default_factory=RawLens)
+    raw: RawLens = field(default_factory=lambda: RawLens(object_stated=False))
     header: tuple[str, ...] = COLUMNS
     stops: dict[int, float] = field(default_factory=dict)
 
@@ -148,7 +148,7 @@ def _asphere(reading: FxReading, code: str, line: int) -> None:
 
 def _rows(source: LensText, sources: GlassSources, notes: Notebook, zoom: int) -> RawLens:
     """Return one zoom of a file of rows."""
-    raw, scale = RawLens(), 1.0
+    raw, scale = RawLens(object_stated=False), 1.0
     for line, text in enumerate(source.lines, 1):
         if text.startswith("#!scale"):
             scale = number((text.split()[1:] or [""])[0], Message("scale"), source, line)

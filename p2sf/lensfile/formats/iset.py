@@ -45,7 +45,7 @@ def read_iset_json(source: LensText, sources: GlassSources, notes: Notebook) -> 
             else Message('a lens lists its "surfaces"')
         )
         raise source.error("the file contains no list of surfaces; {remedy}", 1, remedy=remedy)
-    raw = RawLens(title=_text(top, "name"), source=_text(top, "description"), sensor_stated=False)
+    raw = RawLens(title=_text(top, "name"), source=_text(top, "description"), sensor_stated=False, object_stated=False)
     lines = _surface_lines(source)
     for place, values in enumerate(top["surfaces"]):
         line = lines[place] if place < len(lines) else len(source.lines)
@@ -61,7 +61,7 @@ def read_iset_json(source: LensText, sources: GlassSources, notes: Notebook) -> 
 
 def read_iset_dat(source: LensText, sources: GlassSources, notes: Notebook) -> Lens:
     """Return the lens of a .dat file: rows of radius, thickness, index, aperture diameter; LensFileError."""
-    raw = RawLens(sensor_stated=False)
+    raw = RawLens(sensor_stated=False, object_stated=False)
     for line, text in enumerate(source.lines, 1):
         words = text.split("#")[0].replace(",", " ").split()
         if text.strip().lower().startswith("# name:"):

@@ -210,7 +210,7 @@ def _asphere(reading: BenchReading, words: list[str], line: int) -> None:
 
 def _finish(reading: BenchReading) -> None:
     raw = reading.raw
-    raw.object_distance = _value(reading, "d0") or inf
+    raw.object_distance, raw.object_stated = _value(reading, "d0") or inf, "d0" in reading.variables
     if not abs(raw.object_distance) < FAR:
         raw.object_distance = inf
     f_number = _value(reading, "f-number")

@@ -19,6 +19,7 @@ def read_patent(source: LensText, sources: GlassSources, notes: Notebook) -> Len
     top = read_json(source)
     raw = RawLens(title=f"{top.text('patent_id')} {top.values.get('embodiment', '')}".strip()[:200])
     raw.object_distance = top.number("object_distance_mm", default=inf)
+    raw.object_stated = "object_distance_mm" in top.values
     raw.object_glass = _object_glass(top)
     for part in top.parts("surfaces", "radius_mm"):
         raw.surfaces.append(_surface(part))

@@ -30,6 +30,7 @@ def read_ray_optics_web(source: LensText, sources: GlassSources, notes: Notebook
     raw.object_distance = top.part("object").number("distance", default=inf)
     if not abs(raw.object_distance) < FAR:
         raw.object_distance = inf
+    raw.object_stated = "distance" in top.part("object").values
     raw.object_glass = _glass(top.part("object"))
     for part in top.parts("surfaces", "curvatureRadius"):
         raw.surfaces.append(_surface(part))

@@ -25,7 +25,7 @@ KINDS: tuple[Kind, ...] = ("zoom", "focus")
 AXIS = ("columns", "at", "unit")
 PLACE = Constraint(isfinite, Message("write a finite number"))
 # How deep lists are nested in an entry that is the same at every position; of other entries only tables vary.
-NUMBERS = ("radius", "thickness", "glass", "semi_diameter", "conic")
+NUMBERS = ("radius", "thickness", "glass", "semi_diameter", "conic", "object_distance")
 LISTS = ("fields_deg", "fields_x_deg", "wavelengths_nm", "wavelength_weights", "aspheric")
 APERTURES = ("stop_semi_diameter", "entrance_pupil_diameter", "f_number")
 DEPTH = {**dict.fromkeys((*NUMBERS, *APERTURES), 0), **dict.fromkeys(LISTS, 1)}

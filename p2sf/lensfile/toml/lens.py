@@ -10,6 +10,7 @@ reference_nm = 587.5618          # where pupil and f-number hold; left out: the 
 aim = "stop"                     # rays fill the real stop; or "paraxial", the paraxial entrance pupil
 object_medium = "air"
 sensor_radius = -40.0            # of a curved sensor, also sensor_conic; left out: a plane
+object_distance = 95.0           # where the object stands before the first vertex, inf allowed; left out: in focus
 absorption = true                # rays lose what the media of catalogues absorb; left out: false
 
 [aperture]                       # exactly one: stop_semi_diameter, entrance_pupil_diameter, f_number
@@ -58,7 +59,7 @@ from math import inf
 from pathlib import Path
 from typing import Any, cast
 
-from p2sf.conventions import NM_PER_UM
+from p2sf.conventions import FARTHEST_MM, NM_PER_UM
 from p2sf.errors import GeometryError, LensFileError
 from p2sf.files.reading import toml_table
 from p2sf.lens.lens import (
@@ -139,6 +140,7 @@ def _head(lens: Lens) -> tuple[_Line, ...]:
         _Line("sensor_before", placements_text(lens.sensor_before), "[]"),
         _Line("sensor_radius", digits(lens.sensor_radius), "inf"),
         _Line("sensor_conic", digits(lens.sensor_conic), "0.0"),
+        _Line("object_distance", "" if lens.object_distance is None else digits(lens.object_distance)),
         _Line("absorption", str(lens.absorption).lower(), "false"),
     )
 
@@ -165,7 +167,7 @@ MM = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "inch": 25.4}
 TEXTS = ("title", "name", "character", "source", "comment")
 TOP = (
     *(*TEXTS, "unit", "stop_surface", "fields_deg", "fields_x_deg", "wavelengths_nm", "wavelength_weights"),
-    *("reference_nm", "aim", "object_medium", "absorption", "sensor_radius", "sensor_conic"),
+    *("reference_nm", "aim", "object_medium", "absorption", "sensor_radius", "sensor_conic", "object_distance"),
     *("aperture", "pupil", "surface"),
 )
 TILTED = ("sensor_before", "misaligned")
@@ -174,7 +176,7 @@ APERTURES = ("stop_semi_diameter", "entrance_pupil_diameter", "f_number")
 FIELD = Constraint(lambda x: abs(x) < 90, Message("write an angle in degrees below 90"))
 WAVELENGTH = Constraint(lambda x: 50 <= x <= 50_000, Message("write a wavelength in nanometres, 50 to 50000"))
 
-
+DISTANCE = Constraint(lambda x: 0 < x <= FARTHEST_MM or x == inf, Message("write a positive number up to 1e16, or inf"))
 WEIGHT = Constraint(lambda x: 0 <= x < inf, Message("write a weight that is not negative"))
 
 
@@ -206,6 +208,8 @@ def _plain(top: Table) -> Lens:
     texts["name"] = texts["name"] or Path(top.path).stem.encode("utf-8", "replace").decode("utf-8")
     lens = _with_curved_sensor(top, with_mask(_lens(top, surfaces, _aperture(top, scale), texts), _mask(top)), scale)
     lens = with_absorption(lens, top.flag("absorption"))
+    if "object_distance" in top.values:
+        lens = replace(lens, object_distance=scale * top.number("object_distance", DISTANCE))
     lens = _with_placements(top, lens, scale)
     _check_wavelengths(top, lens)
     return lens

@@ -14,6 +14,7 @@ from p2sf.lens.lens import Lens
 from p2sf.messages import Message
 from p2sf.pixel_kernels import Colour, Kernels, Recipe, SensorMap
 from p2sf.pixel_kernels.pupil_table import PupilTable
+from p2sf.raytrace.focusing import object_distance
 from p2sf.scene.field_area import Point
 from p2sf.scene.files import read_scene
 from p2sf.scene.planning.adaptive_table import from_phase
@@ -166,7 +167,7 @@ def plan(lens: Lens, scene: Scene | str | PathLike[str], check: Callable[[], Non
     >>> p2sf.plan(p2sf.load_lens("double_gauss_28"), scene).meets
     True
     """
-    scene = scene if isinstance(scene, Scene) else read_scene(scene)
+    scene = scene if isinstance(scene, Scene) else read_scene(scene, object_distance(lens))
     camera = scene.camera(lens)
     check_colours(camera, scene)
     study = Study(camera, scene, check or (lambda: None))

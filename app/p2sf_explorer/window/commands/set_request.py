@@ -10,6 +10,7 @@ from p2sf.export.psf_set import PIXELS, PixelGrid, SetAxes, axes_of, left_out, p
 from p2sf.export.psf_set_files import check_set_ending, write_psf_set
 from p2sf.image import Progress
 from p2sf.messages import Message
+from p2sf.raytrace.focusing import object_distance
 from p2sf.spans import depths, numbers
 from p2sf_explorer.compute.setup import Ranges, prescription, ranges, request_setup
 from p2sf_explorer.files.snapshot import side_car, write_state
@@ -62,9 +63,10 @@ def first_texts(state: State) -> SetTexts:
 
 
 def first_depths(limits: Ranges, state: State) -> tuple[float, ...]:
-    """Return distances about a near focus, or evenly in 1/distance from infinity to `NEAREST` times the middle, mm."""
-    if isfinite(limits.focused_mm) and limits.focused_mm > 0:
-        return tuple(share * limits.focused_mm for share in AROUND)
+    """Return depths, mm, about a near object's, or evenly in 1/depth from infinity to `NEAREST` times the middle."""
+    near = object_distance(prescription(state))
+    if isfinite(near):
+        return tuple(share * near for share in AROUND)
     if limits.middle_mm is None:
         return (state.optics.depth_mm,)
     return tuple(NEAREST * limits.middle_mm / (1 - share) if share < 1 else inf for share in SHARES)
