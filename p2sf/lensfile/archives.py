@@ -1,8 +1,9 @@
 """Lenses inside archives, with the glass catalogues that travel with them: zip, and OpticStudio's .zar.
 
-A .zar is a row of records. Each begins with its version, EA 00 or EC 03, and has the size of its data, the name and the
-data themselves at fixed places; data under a name that ends in .LZW are compressed (T. A. Welch, Computer 17, 8, 1984),
-with codes of nine bits and more, the first bit first. The places are those that the package zmxtools documents.
+A .zar is a row of records. Each begins with its version, EA 00, EA 03 (of 2010) or EC 03, and has the size of its data,
+the name and the data themselves at fixed places; data under a name that ends in .LZW are compressed (T. A. Welch,
+Computer 17, 8, 1984), with codes of nine bits and more, the first bit first. The places are those that the package
+zmxtools documents.
 """
 
 import io
@@ -37,7 +38,7 @@ class ZarLayout:
 
 
 LAYOUTS = {
-    b"\xea\x00": ZarLayout(slice(0x0C, 0x10), 0x20, "utf-8", 0x14C),
+    **dict.fromkeys((b"\xea\x00", b"\xea\x03"), ZarLayout(slice(0x0C, 0x10), 0x20, "utf-8", 0x14C)),
     b"\xec\x03": ZarLayout(slice(0x10, 0x18), 0x30, "utf-16-le", 0x288),
 }
 Member = tuple[str, Callable[[], bytes]]  # a name, and what unpacks it

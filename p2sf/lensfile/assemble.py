@@ -164,31 +164,35 @@ def _with_line(make: Callable[[], Lens], raw: RawLens, source: LensText, line: i
 
 
 def _media(raw: RawLens, sources: GlassSources, notes: Notebook, source: LensText) -> list[Medium]:
-    """Return the object medium and the medium behind each surface."""
-    media = [_medium(raw.object_glass, None, sources, notes, source)]
-    for surface in raw.surfaces:
-        here = next(medium for medium in reversed(media) if medium != MIRROR)
-        media.append(here if surface.keeps_medium else _medium(surface.glass, surface, sources, notes, source))
+    """Return the object medium and the medium behind each surface; LensFileError names all glasses not found."""
+    media: list[Medium] = []
+    unknown: dict[str, tuple[Message, int | None]] = {}
+    for surface in (None, *raw.surfaces):
+        if surface and surface.keeps_medium:
+            media.append(next(medium for medium in reversed(media) if medium != MIRROR))
+            continue
+        glass, place = (surface.glass, surface.name) if surface else (raw.object_glass, Message("object space"))
+        glass = glass or RawGlass(medium=AIR)
+        line = glass.line or (surface.line if surface else None)
+        try:
+            found = resolve(glass, sources)
+        except GlassError as failure:
+            told = Message("{place}: {error}", place=place, error=failure)
+            unknown.setdefault(glass.name or str(told), (told, line))
+            media.append(AIR)
+            continue
+        number = surface.number if surface else None
+        if found.substitution:
+            notes.add("substituted", found.substitution, number, line)
+        if found.choice:
+            notes.add("caution", found.choice, number, line)
+        media.append(found.medium)
+    if unknown:
+        (reason, line), *others = unknown.values()
+        for other, _ in others:
+            reason = Message("{first}; {second}", first=reason, second=other)
+        raise source.error(reason, line or len(source.lines))
     return media
-
-
-def _medium(
-    glass: RawGlass | None, surface: RawSurface | None, sources: GlassSources, notes: Notebook, source: LensText
-) -> Medium:
-    if glass is None:
-        return AIR
-    line = glass.line or (surface.line if surface else None)
-    try:
-        found = resolve(glass, sources)
-    except GlassError as failure:
-        where = surface.name if surface else Message("object space")
-        raise source.error("{place}: {error}", line or len(source.lines), place=where, error=failure) from failure
-    number = surface.number if surface else None
-    if found.substitution:
-        notes.add("substituted", found.substitution, number, line)
-    if found.choice:
-        notes.add("caution", found.choice, number, line)
-    return found.medium
 
 
 def _bare_lens(raw: RawLens, media: list[Medium]) -> Lens:

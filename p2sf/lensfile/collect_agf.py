@@ -21,6 +21,8 @@ from p2sf.lensfile.glass_lookup import DAMAGED_ND, key, nd_of
 REPLACED = {("SCHOTT", "B270"), ("SUMITA", "KGIR79")}
 # Misprints, which break the smooth course of their tables: of a maker's table without them the rest is right.
 MISPRINTS_UM = {"CTK8": (1.5296,), "TK9": (0.8521,), "F8": (0.514, 0.5208, 0.53)}
+# The database ends this formula at 0.7 µm, the catalogue of its maker at 1.06 µm.
+RANGES_UM = {("SCHOTT", "LF7"): (0.334, 1.06)}
 LEAST_INDEX = 0.99  # of vacuum relative to air, and less than that of any solid
 HEAD = "catalogues of glass makers (AGF), and earlier releases of refractiveindex.info (CC0 1.0)"
 POLYNOMIALS = {1: (2, -2, -4, -6, -8), 10: (2, -2, -4, -6, -8, -10, -12), 12: (2, -2, -4, -6, -8, 4, 6)}
@@ -91,12 +93,20 @@ def _without_misprints(known: dict[str, bytes]) -> Iterator[str]:
         yield _line(f"{CATALOGUES}/LZOS/{name}", GlassPage(kind, *columns))
 
 
+def _with_whole_ranges(known: dict[str, bytes]) -> Iterator[str]:
+    """Yield the formulas whose range in the database is too short."""
+    for (maker, name), ends in RANGES_UM.items():
+        kind, _, numbers = known[f"{SUPPLIERS}/{maker}-optical/{name}"].decode().split("\t")
+        yield _line(f"{CATALOGUES}/{maker}/{name}", GlassPage(kind, ends, tuple(map(float, numbers.split()))))
+
+
 def lines(arguments: Sequence[str]) -> Iterator[str]:
     """Yield the line of every glass that the database lacks."""
     known = read_lines(DATA)[1]
     sold = {(book.split("-")[0].upper(), key(name)) for _, book, name in (each.split("/") for each in known)}
     sold -= REPLACED
     yield from _without_misprints(known)
+    yield from _with_whole_ranges(known)
     for maker, path in (argument.split("=", 1) for argument in arguments):
         for name, line in _found(maker, Path(path)):
             if (maker, key(name)) not in sold:

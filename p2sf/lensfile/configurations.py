@@ -56,8 +56,7 @@ def assemble_all(stated: Sequence[Configuration], sources: GlassSources, notes: 
     lenses = [_assemble_one(each, number, sources, notes, source) for number, each in enumerate(stated, 1)]
     if len({replace(lens, object_distance=None) for lens in lenses}) == 1:
         if len({lens.object_distance for lens in lenses}) > 1:
-            told = "the configurations differ only by the object's distance; that of the first is read"
-            notes.add("caution", told)
+            notes.add("caution", "the configurations differ only by the object's distance; that of the first is read")
         return lenses[0]
     zooms, focuses = _rings([each.object_mm for each in stated])
     if zooms * focuses < len(stated):

@@ -11,7 +11,8 @@ Exact, taken without asking:
    says so where another maker's of that name has other indices.
 
 Substitutes, offered in the error and taken when the user accepts them:
-6. its successor (N-, S-, …) from a named maker, then from any.
+6. its successor (N-, S-, …) from a named maker, then from any;
+7. nd and vd that the file has beside the name.
 """
 
 import re
@@ -216,6 +217,13 @@ def _substitute(glass: RawGlass, sources: GlassSources) -> Resolution:
         if glass.makers
         else Message('glass "{name}"', name=glass.name)
     )
+    if not offers and glass.beside:
+        nd, vd = glass.beside
+        if sources.accept_substitutes:
+            told = "{glass} is not known; nd {nd:g} and vd {vd:g}, which the file has beside its name, are taken"
+            return Resolution(model_glass(nd, vd), Message(told, glass=asked, nd=nd, vd=vd))
+        told = "{glass} is in no catalogue; accept nd {nd:g} and vd {vd:g} of the same line, or give its AGF catalogue"
+        raise GlassError(told, glass=asked, nd=nd, vd=vd)
     if not offers:
         raise GlassError("{glass} is in no catalogue; give its AGF catalogue, or its index as nd and vd", glass=asked)
     if not sources.accept_substitutes:

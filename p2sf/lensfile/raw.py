@@ -34,8 +34,9 @@ RawFieldKind = Literal["angle", "object_height", "image_height", "real_image_hei
 class RawGlass:
     """What a file says about a medium: a name with its makers, an index, or nd and vd.
 
-    ``medium`` is a medium that the file itself defines (a private glass, a table of indices). What a Zemax file writes
-    beside a name is left over from earlier glasses and no statement at all.
+    ``medium`` is a medium that the file itself defines (a private glass, a table of indices). ``beside``: nd and vd
+    that a Zemax file writes beside a name; they may be left over from earlier glasses, and count with the user's
+    consent only.
     """
 
     name: str = ""
@@ -44,6 +45,7 @@ class RawGlass:
     model: tuple[float, float] | None = None
     medium: Medium | None = None
     line: int | None = None
+    beside: tuple[float, float] | None = None
 
 
 CATALOGUE_AIR = (20.0, 1.0)  # °C and atmospheres, at which makers state indices relative to air

@@ -139,6 +139,19 @@ def number(word: str, what: str | Message, source: LensText, line: int) -> float
     return value
 
 
+def is_infinite(word: str) -> bool:
+    """Return whether a word of a file stands for infinity, of either sign."""
+    return word.strip().lstrip("+-").lower() in ("inf", "infinity", "∞")
+
+
+def curvature(word: str, what: str | Message, source: LensText, line: int) -> float:
+    """Return the curvature of a radius, which is 0, infinite or a word for a plane; LensFileError."""
+    if is_infinite(word) or word.strip().lower() in ("", "plano", "plane", "flat"):
+        return 0.0
+    radius = number(word, what, source, line)
+    return 1 / radius if radius else 0.0
+
+
 def whole(word: str, what: str | Message, source: LensText, line: int) -> int:
     """Return a whole number; LensFileError with its line for any other word."""
     value = number(word, what, source, line)

@@ -38,7 +38,7 @@ PATTERNS: tuple[tuple[StatedKind, str], ...] = (
         "back_focal_length",
         rf"\b(?:bfl|bfd|back focal (?:length|distance))\s*(?:of|[=:]|)\s*{NUMBER}\s*(?:mm\b|[,;)]|$)",
     ),
-    ("f_number", rf"\bf(?:\s*/\s*#?|no)\s*[=:]?\s*{NUMBER}\b"),
+    ("f_number", rf"\bf(?:\s*/\s*#?|no)\s*[=:]?\s*{NUMBER}(?!\.?\d)"),  # also "f/2.8E"
     ("half_field", rf"\b(?:hfov|half (?:field|angle)(?: of view)?)\s*(?:of|[=:]|)\s*{NUMBER}\s*(?:°|deg)"),
 )
 

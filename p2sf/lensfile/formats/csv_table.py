@@ -23,7 +23,7 @@ from p2sf.lensfile.formats.glass_rows import glass_of_row
 from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.raw import RawApertureKind, RawGlass, RawLens, RawSurface
 from p2sf.lensfile.report import Notebook
-from p2sf.lensfile.source_text import LensText, number
+from p2sf.lensfile.source_text import LensText, curvature, is_infinite, number
 from p2sf.messages import Message
 
 UNITS_MM = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "inch": 25.4}
@@ -67,8 +67,6 @@ HARMLESS = (
     *("nd_offset", "vd_offset", "δnd", "δvd", "?nd", "?vd"),
 )
 NORMALISED = ("normalization", "normalization_radius")  # of the terms of an asphere
-PLANES = ("", "inf", "infinity", "∞", "plano", "plane", "flat")
-INFINITE = ("inf", "infinity", "∞")
 OBJECTS, IMAGES = ("obj", "object", "s0"), ("img", "image", "ima", "sensor")
 ROUND = ("", "standard", "sphere", "spherical", "plane", "conic", "asphere", "aspheric", "even asphere", "evenasph")
 STOPS = ("stop", "sto", "aperture")
@@ -91,6 +89,7 @@ class TableReading:
     raw: RawLens = field(default_factory=lambda: RawLens(object_stated=False))
     separator: str = ","
     section: str = LENS
+    numbered: bool = False  # from the object, surface 0, on, so that the last row is the image
     header: list[str] = field(default_factory=list)
     rows: dict[str, RawSurface] = field(default_factory=dict)
     variables: dict[str, list[str]] = field(default_factory=dict)
@@ -145,8 +144,22 @@ def _read(
             reading.section, reading.header = _section(cells), []
         elif any(cells):
             _row(reading, cells, line)
+    _leave_out_image(reading)
     _open(reading)
     return reading
+
+
+def _leave_out_image(reading: TableReading) -> None:
+    """Take the last row as the image where it can be nothing else; LensFileError for any other infinite thickness."""
+    *others, last = reading.raw.surfaces or [RawSurface(0)]
+    if others and last.glass is None and (abs(last.thickness) >= FAR or (reading.numbered and not last.thickness)):
+        reading.raw.surfaces, reading.raw.image = others, last
+        reading.notes.add("read", "the last row is the image", None, last.line)
+    for surface in reading.raw.surfaces:
+        if abs(surface.thickness) >= FAR:
+            raise reading.source.error(
+                "{surface} has an infinite thickness; give a finite one", surface.line, surface=surface.name
+            )
 
 
 def _open(reading: TableReading) -> None:
@@ -250,15 +263,13 @@ def _add(reading: TableReading, row: dict[str, str], line: int) -> None:
     value = _reader(row, line, reading.source)
     thickness = _distance(reading, row.get("thickness", ""), line)
     if place in OBJECTS or (place == "0" and not raw.surfaces and abs(thickness) >= FAR):
+        reading.numbered = place == "0"
         raw.object_distance = thickness if 0 < abs(thickness) < FAR else inf
         raw.object_stated = True
         return
     label = row.get("label", "") or ("" if re.fullmatch(r"\d+", place) else row.get("surface", ""))
     surface = RawSurface(len(raw.surfaces) + 1, line, label[:60])
-    radius = 0.0 if row.get("radius", "").lower() in PLANES else value("radius")
-    surface.curvature = 1 / radius if radius else 0.0
-    if abs(thickness) >= FAR:
-        raise reading.source.error("{surface} has an infinite thickness; give a finite one", line, surface=surface.name)
+    surface.curvature = curvature(row.get("radius", ""), "radius", reading.source, line)
     surface.thickness, surface.conic = thickness, value("conic")
     surface.semi_diameter = value("semi_diameter") or value("diameter") / 2 or inf
     surface.aspheric = _terms(row, value)
@@ -287,7 +298,7 @@ def _terms(row: dict[str, str], value: Callable[[str], float]) -> dict[int, floa
 
 def _distance(reading: TableReading, cell: str, line: int) -> float:
     """Return a distance, or that of this position by its name."""
-    if cell.lower() in INFINITE:
+    if is_infinite(cell):
         return inf
     if not re.match(r"[A-Za-z]", cell):
         return number(cell, "thickness", reading.source, line) if cell else 0.0
@@ -298,7 +309,7 @@ def _distance(reading: TableReading, cell: str, line: int) -> float:
             'distance "{name}" has no value in [variable distances]; add it', line, name=cell[:20]
         )
     found = cells[reading.column]
-    return inf if found.lower() in INFINITE else number(found, cell, reading.source, line)
+    return inf if is_infinite(found) else number(found, cell, reading.source, line)
 
 
 def _asphere(reading: TableReading, row: dict[str, str], line: int) -> None:

@@ -17,10 +17,19 @@ from p2sf.lensfile.source_text import LensText
 from p2sf.lensfile.stated import StatedKind
 from p2sf.messages import Message
 
+TERM = re.compile(r"ai[1-9]\d?")
 STOPS, ROUND = ("stop", "aperture"), ("spheric", "spherical", "aspheric", "plane")
 IDEAL = ("thinlens", "paraxial")
 STATED: dict[str, StatedKind] = {"foclen": "focal_length", "fnum": "f_number"}
 AIR = ("", "air", "vacuum", "occluder")
+KEYS = (
+    *("idx", "type", "r", "roc", "c", "k", "ai", "use_ai2", "mat1", "mat2", "d", "d_next", "is_square", "diffraction"),
+    *("foclen", "f", "f0", "pos_xy", "vec_local"),
+)
+TOP_KEYS = (
+    *("info", "foclen", "fnum", "r_sensor", "r_last", "d_sensor", "sensor_size", "sensor_res", "surfaces", "DOE"),
+    *("hfov", "rfov", "imgh", "units"),
+)
 FIELD_SHARES = (0.0, 0.7, 1.0)
 # nd and vd that DeepLens has for names that glass makers do not sell, or sell as something else.
 PLASTICS = {
@@ -39,9 +48,12 @@ PLASTICS = {
 def read_deeplens(source: LensText, sources: GlassSources, notes: Notebook) -> Lens:
     """Return the lens of a DeepLens file; LensFileError with its line for shapes that are not read."""
     top = read_json(source)
+    top.note_unknown(notes, TOP_KEYS)
+    _check_doe(top.part("DOE"), source)
     raw = RawLens(title=top.text("info").removeprefix("None"), object_stated=False)
     parts = top.parts("surfaces", "type")
     for part in parts:
+        part.note_unknown(notes, (*KEYS, *filter(TERM.fullmatch, part.values)))
         raw.surfaces.append(_surface(part, notes))
         if _kind(part) in STOPS:
             raw.stop = raw.stop or part.surface
@@ -54,6 +66,18 @@ def read_deeplens(source: LensText, sources: GlassSources, notes: Notebook) -> L
     if height:
         raw.field_kind, raw.fields = "image_height", [(0.0, -share * height) for share in FIELD_SHARES]  # upwards
     return assemble(raw, sources, notes, source)
+
+
+def _check_doe(part: JsonPart, source: LensText) -> None:
+    """Raise LensFileError for a diffractive element behind the lens, unless all orders of its phase are 0."""
+    orders = [part.number(name) for name in part.values if re.fullmatch(r"order\d+", name)]
+    if part.values and (any(orders) or not orders):
+        raise source.error(
+            "the lens has a diffractive element (DOE) of type {kind}, which is not read; take the block out to read "
+            "the lens without it",
+            _line_of(source, "DOE"),
+            kind=part.text("type") or Message("nothing"),
+        )
 
 
 def _line_of(source: LensText, name: str) -> int:
@@ -95,7 +119,7 @@ def _surface(part: JsonPart, notes: Notebook) -> RawSurface:
 
 def _terms(part: JsonPart) -> dict[int, float]:
     """Return the coefficient of each power of r."""
-    named = {int(name[2:]): part.number(name) for name in part.values if re.fullmatch(r"ai[1-9]\d?", name)}
+    named = {int(name[2:]): part.number(name) for name in part.values if TERM.fullmatch(name)}
     if named:
         return named
     listed = part.numbers("ai")

@@ -17,7 +17,7 @@ from p2sf.lensfile.formats.glass_rows import glass_of_row
 from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.raw import RawGlass, RawLens, RawSurface
 from p2sf.lensfile.report import Notebook
-from p2sf.lensfile.source_text import LensText, number
+from p2sf.lensfile.source_text import LensText, curvature, is_infinite, number
 from p2sf.lensfile.stated import StatedKind
 from p2sf.messages import Message
 
@@ -79,12 +79,17 @@ def _sections(source: LensText, sources: GlassSources, notes: Notebook) -> Lens:
 
 def _metadata(reading: FxReading, code: str, line: int) -> None:
     name, _, value = (part.strip() for part in code.partition(":"))
+    found = re.fullmatch(r"(?:f/)?([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(?:mm|x|×)?", value, re.IGNORECASE)
     if name.lower() == "name":
         reading.raw.title = value[:200]
-    elif name.lower() in STATED and value:
-        reading.raw.state(STATED[name.lower()], number(value, name, reading.source, line), line)
-    elif name.lower() == "squeeze" and value and number(value, name, reading.source, line) != 1:
-        reading.notes.add("caution", "the picture is squeezed by {factor}, which is left out", None, line, factor=value)
+    elif name.lower() in STATED and found:
+        reading.raw.state(STATED[name.lower()], float(found[1]), line)
+    elif name.lower() == "squeeze" and value:
+        if not found or float(found[1]) != 1:
+            told = "the picture is squeezed by {factor}, which is left out"
+            reading.notes.add("caution", told, None, line, factor=value[:20])
+    elif value:
+        reading.notes.add_unknown(name, line)
 
 
 def _surface(reading: FxReading, code: str, line: int) -> None:
@@ -95,7 +100,9 @@ def _surface(reading: FxReading, code: str, line: int) -> None:
     row = dict(zip(reading.header, words, strict=False))
     if len(words) < 4 or not {"radius", "thickness", "ior"} <= set(row):
         raise reading.source.error("a row needs radius, thickness, index and housing radius; complete it", line)
-    values = {name: number(row.get(name, "0"), name, reading.source, line) for name in COLUMNS[:5]}
+    words = [row.get(name, "0") for name in COLUMNS[:5]]
+    words[0] = "0" if is_infinite(words[0]) else words[0]
+    values = {name: number(word, name, reading.source, line) for name, word in zip(COLUMNS[:5], words, strict=True)}
     surface = RawSurface(len(reading.raw.surfaces) + 1, line)
     geometry = row.get("geometry", "SPHERICAL").upper()
     if geometry not in GEOMETRIES:
@@ -173,8 +180,8 @@ def _row(text: str, line: int, count: int, zoom: int, reading: FxReading) -> Raw
         return number(word, what, reading.source, line)
 
     surface = RawSurface(count, line)
-    radius, distances, material = value(words[0], "radius"), words[1].split("/"), words[2]
-    surface.curvature = 1 / radius if radius else 0.0
+    distances, material = words[1].split("/"), words[2]
+    surface.curvature = curvature(words[0], "radius", reading.source, line)
     surface.thickness = value(distances[min(zoom, len(distances) - 1)], "thickness")
     if material.lower().startswith("cx_"):
         raise reading.source.error(

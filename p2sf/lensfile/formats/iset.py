@@ -5,7 +5,7 @@ stop where ior is 0 or the name says so, elsewhere a plane. A stop has the same 
 """
 
 import re
-from math import inf
+from math import inf, isinf
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GlassError
@@ -16,11 +16,12 @@ from p2sf.lensfile.formats.json_parts import parse_json
 from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.raw import RawGlass, RawLens, RawSurface
 from p2sf.lensfile.report import Notebook
-from p2sf.lensfile.source_text import LensText, number
+from p2sf.lensfile.source_text import LensText, is_infinite, number
 from p2sf.messages import Message
 
 STOP_NAMES = ("stop", "diaphragm", "aperture")
 IDENTITY = ([1, 0, 0], [0, 1, 0], [0, 0, 1], [0, 0, 0])
+TOP_KEYS = "name", "description", "type", "surfaces", "microlens"
 KEYS = (
     "radius",
     "thickness",
@@ -45,6 +46,8 @@ def read_iset_json(source: LensText, sources: GlassSources, notes: Notebook) -> 
             else Message('a lens lists its "surfaces"')
         )
         raise source.error("the file contains no list of surfaces; {remedy}", 1, remedy=remedy)
+    for key in sorted(top.keys() - {*TOP_KEYS}):
+        notes.add_unknown(key, 1)
     raw = RawLens(title=_text(top, "name"), source=_text(top, "description"), sensor_stated=False, object_stated=False)
     lines = _surface_lines(source)
     for place, values in enumerate(top["surfaces"]):
@@ -72,6 +75,7 @@ def read_iset_dat(source: LensText, sources: GlassSources, notes: Notebook) -> L
             raise source.error(
                 "a row has {count} columns; write radius, thickness, index, diameter", line, count=len(words)
             )
+        words[0] = "0" if is_infinite(words[0]) else words[0]
         radius, thickness, index, diameter = (number(word, Message("value"), source, line) for word in words)
         values = {"radius": radius, "thickness": thickness, "ior": index, "semi_aperture": diameter / 2}
         surface = _surface(values, len(raw.surfaces) + 1, line, source, notes)
@@ -126,9 +130,8 @@ def _one(values: dict, key: str, default: float | None, count: int, line: int, s
             name=key,
         )
     value = value[0] if isinstance(value, list) and value else value
-    if value in ("inf", "Inf", "Infinity") and key == "radius":
-        return 0.0
-    if value is inf and (key == "radius" or default is inf):
+    infinite = is_infinite(value) if isinstance(value, str) else isinstance(value, float) and isinf(value)
+    if infinite and (key == "radius" or default == inf):
         return 0.0 if key == "radius" else inf
     if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) < 1e100:
         raise source.error(

@@ -2,11 +2,13 @@
 
 import json
 import re
+from collections.abc import Collection
 from dataclasses import dataclass
 from math import inf
 from typing import Any, NoReturn
 
 from p2sf.lensfile.conjugates import FAR
+from p2sf.lensfile.report import Notebook
 from p2sf.lensfile.source_text import LensText
 from p2sf.messages import Message
 
@@ -38,6 +40,12 @@ class JsonPart:
         """Raise LensFileError about this object, whose surface the template calls ``{surface}``."""
         raise self.source.error(template, self.line, surface=self.surface or 0, **values)
 
+    def note_unknown(self, notes: Notebook, known: Collection[str]) -> None:
+        """Note the keys of this object that a reader does not know; a name in parentheses is a comment."""
+        for name in self.values:
+            if name not in known and not name.startswith("("):
+                notes.add_unknown(name, self.line)
+
     def number(self, *names: str, default: float | None = None) -> float:
         """Return the first of these numbers that is stated; infinity may be a word. LensFileError for anything else."""
         name = next((name for name in names if self.values.get(name) is not None), names[0])
@@ -56,9 +64,9 @@ class JsonPart:
             )
         return float(value)
 
-    def curvature(self, *names: str) -> float:
+    def curvature(self, *names: str, default: float | None = None) -> float:
         """Return the curvature of a radius, which is 0 or infinite for a plane."""
-        radius = self.number(*names)
+        radius = self.number(*names, default=default)
         return 1 / radius if radius and abs(radius) < FAR else 0.0
 
     def thickness(self, *names: str, default: float | None = None) -> float:

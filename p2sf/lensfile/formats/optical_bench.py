@@ -7,6 +7,7 @@ number, radius, conic constant, A4, A6, … (from A2 where [constants] says Asph
 
 import re
 from dataclasses import dataclass, field
+from itertools import takewhile
 from math import inf
 
 from p2sf.lens.lens import Lens
@@ -16,11 +17,12 @@ from p2sf.lensfile.formats.glass_rows import glass_of_row
 from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.raw import RawGlass, RawLens, RawSurface
 from p2sf.lensfile.report import Notebook
-from p2sf.lensfile.source_text import LensText, number
+from p2sf.lensfile.source_text import LensText, curvature, is_infinite, number
 from p2sf.messages import Message
 
-PLANES = ("AS", "CG", "FS", "INFINITY", "INF", "0", "PLANO")
+KINDS = ("AS", "CG", "FS")  # in place of a radius: stop, cover glass, flare stop
 FIELD_FRACTIONS = (0.0, 0.7, 1.0)
+SAME_RADIUS, ROUNDED = 1e-6, 1e-3  # parts by which the two radii of an asphere differ: not at all, or by rounding
 
 
 @dataclass
@@ -92,12 +94,16 @@ def _configuration(reading: BenchReading) -> Configuration:
 
 
 def _cells(text: str) -> list[str]:
-    """Return the cells of a row; one without tabs is split at spaces, with an empty cell for a missing index."""
+    """Return the cells of a row up to a remark (//); without tabs cut at spaces, with an empty cell for no index."""
     if "\t" in text:
-        return [cell.strip() for cell in text.split("\t")]
-    words = text.split() or [""]
+        return list(takewhile(_no_remark, (cell.strip() for cell in text.split("\t")))) or [""]
+    words = list(takewhile(_no_remark, text.split())) or [""]
     surface = re.fullmatch(r"\d+[A-Za-z]?", words[0]) and 3 <= len(words)
     return [*words[:3], "", *words[3:]] if surface and len(words) <= 4 else words
+
+
+def _no_remark(cell: str) -> bool:
+    return not cell.startswith("//")
 
 
 def _skip(reading: BenchReading, words: list[str], line: int) -> None:
@@ -132,7 +138,7 @@ def _value(reading: BenchReading, name: str) -> float | None:
     zooms = next((k for k, cell in enumerate(far) if cell != far[0]), reading.column + 1)
     own = cells[reading.column : reading.column + 1] if len(cells) > 1 else cells
     word = own[0] if own and _stated(own[0]) else (cells[reading.column % zooms :] or [""])[0]
-    if not _stated(word) or word.lower() in ("infinity", "inf"):
+    if not _stated(word) or is_infinite(word):
         return None
     return number(word, name, reading.source, line)
 
@@ -143,9 +149,8 @@ def _surface(reading: BenchReading, words: list[str], line: int) -> None:
     surface = RawSurface(len(reading.raw.surfaces) + 1, line, words[0])
     words = [*words, *[""] * 8]
     kind = words[1].upper()
-    if kind not in PLANES:
-        radius = number(words[1], Message("radius"), reading.source, line)
-        surface.curvature = 1 / radius if radius else 0.0
+    if kind not in KINDS:
+        surface.curvature = curvature(words[1], Message("radius"), reading.source, line)
     surface.thickness = _distance(reading, words[2], line)
     surface.semi_diameter = number(words[4], Message("diameter"), reading.source, line) / 2 if words[4] else inf
     surface.glass = _glass(reading, words, surface, line)
@@ -195,14 +200,18 @@ def _asphere(reading: BenchReading, words: list[str], line: int) -> None:
     values = [number(word, Message("aspherical value"), reading.source, line) for word in words[1:] if word]
     if len(values) < 2:
         raise reading.source.error("a row of aspherical data needs number, radius, conic; complete it", line)
-    curvature = 1 / values[0] if values[0] else 0.0
-    if abs(curvature - surface.curvature) > 1e-6 * abs(surface.curvature):
+    own = 1 / values[0] if values[0] else 0.0
+    off = abs(own - surface.curvature) / (abs(surface.curvature) or 1.0)
+    if off > ROUNDED:
         raise reading.source.error(
             "{surface}: radius {radius:g} differs from the lens data's; correct one",
             line,
             surface=surface.name,
             radius=values[0],
         )
+    if off > SAME_RADIUS:
+        told = "radius {radius:.7g} of the aspherical data is {off:.2g} off that of the lens data, which is taken"
+        reading.notes.add("caution", told, surface.number, line, radius=values[0], off=off)
     surface.conic = values[1]
     first = 2 if "asphericala2" in reading.constants else 4
     surface.aspheric = dict(zip(range(first, 42, 2), values[2:], strict=False))
@@ -216,13 +225,15 @@ def _finish(reading: BenchReading) -> None:
     f_number = _value(reading, "f-number")
     if f_number:
         raw.aperture, raw.aperture_line = ("f_number", f_number), reading.variables["f-number"][1]
+        raw.state("f_number", f_number, raw.aperture_line)  # whatever the title rounds it to
     angle = _value(reading, "angle of view")
     if angle:
         raw.field_line = reading.variables["angle of view"][1]
         raw.fields = [(0.0, fraction * angle / 2) for fraction in FIELD_FRACTIONS]
-    focal = _value(reading, "focal length")
+    cells, line = reading.variables.get("focal length", ([], 0))
+    focal = _value(reading, "focal length") if _stated("".join(cells[reading.column : reading.column + 1])) else None
     if focal:
-        raw.state("focal_length", focal, reading.variables["focal length"][1])
+        raw.state("focal_length", focal, line)
     if raw.surfaces and not raw.surfaces[-1].thickness:
         back = _value(reading, "bf")
         raw.surfaces[-1].thickness = back or 0.0

@@ -35,6 +35,10 @@ FIELDS: dict[str, RawFieldKind] = {
 }
 POWERS = {"Plane": 0, "StandardGeometry": 0, "Standard": 0, "EvenAsphere": 2, "OddAsphere": 1}  # of r, a step
 TOROID = "ToroidalGeometry"  # a biconic is the sum of two curves there, and refused
+KEYS = (
+    *("type", "geometry", "material_pre", "material_post", "is_stop", "is_reflective", "aperture", "comment"),
+    *("interaction_model", "f", "thickness", "surface_type"),
+)
 UNITS_UM = {"um": 1.0, "nm": 1 / NM_PER_UM, "mm": 1e3}
 PLACED = ("x", "y", "rx", "ry", "rz")
 
@@ -51,10 +55,13 @@ def read_optiland(source: LensText, sources: GlassSources, notes: Notebook) -> L
     raw.object_distance = places[1] - places[0] if abs(places[0]) < FAR else inf
     raw.object_glass = _glass(first)
     for number, part in enumerate(inside, 1):
+        part.note_unknown(notes, KEYS)
         raw.surfaces.append(_surface(part, places[number + 1] - places[number]))
         if part.values.get("is_stop"):
             raw.stop = number
     _refuse_tilt(image)
+    raw.image = RawSurface(len(inside) + 1, image.line)
+    _profile(image.part("geometry"), raw.image)
     _conditions(top, raw, source)
     return assemble(raw, sources, notes, source)
 
@@ -66,12 +73,6 @@ def _refuse_tilt(part: JsonPart) -> None:
 
 
 def _surface(part: JsonPart, thickness: float) -> RawSurface:
-    geometry = part.part("geometry")
-    kind = geometry.text("type")
-    if kind not in (*POWERS, TOROID):
-        part.refuse(
-            "surface {surface} has type {kind}, which is not read; only {known} are", kind=kind, known=(*POWERS, TOROID)
-        )
     _refuse_tilt(part)
     surface = RawSurface(part.surface or 1, part.line, part.text("comment")[:60], thickness=thickness)
     acts = part.part("interaction_model")
@@ -79,15 +80,8 @@ def _surface(part: JsonPart, thickness: float) -> RawSurface:
         surface.ideal_focal_length = (part if "f" in part.values else acts).number("f", "focal_length")
     elif acts.text("type") not in ("", "RefractiveReflectiveModel"):
         part.refuse("surface {surface} has type {kind}, which is not read", kind=acts.text("type"))
-    elif kind == TOROID:
-        x, y = (1 / c if (c := geometry.curvature(name)) else inf for name in ("radius_x", "radius_y"))
-        conic, alphas = geometry.number("conic_yz", default=0.0), tuple(geometry.numbers("coeffs_poly_y"))
-        surface.shape = Toroid(radius_x=x, radius_y=y, conic_y=conic, coefficients=alphas)
-    elif kind != "Plane":
-        surface.curvature = geometry.curvature("radius")
-        surface.conic = geometry.number("conic", default=0.0)
-        terms = geometry.numbers("coefficients")
-        surface.aspheric = {POWERS[kind] * place: value for place, value in enumerate(terms, 1) if value}
+    else:
+        _profile(part.part("geometry"), surface)
     reflects = part.values.get("is_reflective") or acts.values.get("is_reflective")
     surface.glass = RawGlass(medium=MIRROR, line=part.line) if reflects else _glass(part)
     rim = part.part("aperture")
@@ -98,6 +92,23 @@ def _surface(part: JsonPart, thickness: float) -> RawSurface:
     surface.semi_diameter = rim.number("r_max", default=inf) or inf
     surface.inner_radius = rim.number("r_min", default=0.0)
     return surface
+
+
+def _profile(geometry: JsonPart, surface: RawSurface) -> None:
+    kind = geometry.text("type")
+    if kind not in (*POWERS, TOROID):
+        geometry.refuse(
+            "surface {surface} has type {kind}, which is not read; only {known} are", kind=kind, known=(*POWERS, TOROID)
+        )
+    if kind == TOROID:
+        x, y = (1 / c if (c := geometry.curvature(name)) else inf for name in ("radius_x", "radius_y"))
+        conic, alphas = geometry.number("conic_yz", default=0.0), tuple(geometry.numbers("coeffs_poly_y"))
+        surface.shape = Toroid(radius_x=x, radius_y=y, conic_y=conic, coefficients=alphas)
+    elif kind != "Plane":
+        surface.curvature = geometry.curvature("radius")
+        surface.conic = geometry.number("conic", default=0.0)
+        terms = geometry.numbers("coefficients")
+        surface.aspheric = {POWERS[kind] * place: value for place, value in enumerate(terms, 1) if value}
 
 
 def _glass(part: JsonPart) -> RawGlass | None:

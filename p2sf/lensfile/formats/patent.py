@@ -13,6 +13,11 @@ from p2sf.lensfile.raw import RawGlass, RawLens, RawSurface
 from p2sf.lensfile.report import Notebook
 from p2sf.lensfile.source_text import LensText
 
+KEYS = (
+    *("number", "radius_mm", "thickness_mm", "index_after", "semi_diameter_mm", "asphere", "source_page"),
+    *("material_key", "glass", "comment", "label"),
+)
+
 
 def read_patent(source: LensText, sources: GlassSources, notes: Notebook) -> Lens:
     """Return the lens of a patent's prescription; LensFileError with its line."""
@@ -22,6 +27,8 @@ def read_patent(source: LensText, sources: GlassSources, notes: Notebook) -> Len
     raw.object_stated = "object_distance_mm" in top.values
     raw.object_glass = _object_glass(top)
     for part in top.parts("surfaces", "radius_mm"):
+        part.note_unknown(notes, KEYS)
+        part.part("asphere").note_unknown(notes, ("conic", "even_coefficients"))
         raw.surfaces.append(_surface(part))
     stop = top.number("stop_surface", default=0.0)
     raw.stop = int(stop) or None

@@ -40,6 +40,10 @@ FIELDS: dict[tuple[str, str], RawFieldKind] = {
 DECENTRES = {"decenter": "", "reverse": "REV", "dec and return": "DAR", "bend": "BEN"}
 PROFILES = ("Spherical", "Conic", "EvenPolynomial", "RadialPolynomial")
 TOROIDS = {"YToroid": 0.0, "XToroid": 90.0}  # with their turn about the axis, degrees
+CURVED = (
+    "{surface} is a grating on a curved surface, whose lines are evenly spaced along the surface in ray-optics, and "
+    "across the axis here; only plane gratings are read"
+)
 DAMAGED = (KeyError, TypeError, ValueError, IndexError, AttributeError, RecursionError)
 
 
@@ -115,12 +119,7 @@ def _surface(
             surface.diffraction = _diffraction(surface, values["phase_element"], unit_mm, source, reflects)
         _shape(surface, _profile(values, model), source)
         if isinstance(surface.diffraction, Grating) and surface.curvature:
-            raise source.error(
-                "{surface} is a grating on a curved surface, whose lines are evenly spaced along the surface in "
-                "ray-optics, and across the axis here; only plane gratings are read",
-                1,
-                surface=surface.name,
-            )
+            raise source.error(CURVED, 1, surface=surface.name)
     surface.glass = RawGlass(medium=MIRROR, line=1) if reflects else _glass(gap["medium"])
     rim = values.get("max_aperture") or inf
     for aperture in values.get("clear_apertures", ()):
@@ -160,18 +159,13 @@ def _three(array: Any) -> tuple[float, float, float]:
 
 
 def _diffraction(surface: RawSurface, element: Any, unit_mm: float, source: LensText, reflects: bool) -> Phase:
-    """Return the phase 2π/λ·Σ cⱼr²ʲ of an element whose coefficients are a path at its reference wavelength.
-
-    A grating has lines across its normal; a positive order turns rays that pass away from the normal, and rays that it
-    reflects towards it.
-    """
+    """Return the phase 2π/λ·Σ cⱼr²ʲ of an element whose coefficients are a path at its reference wavelength."""
     values = _inside(element)
     if _kind(element) == "DiffractionGrating":
         x, y, z = _three(values.get("grating_normal"))
         if (x or y) and not z:
             lines = float(_stated(values, "grating_lpmm")) * unit_mm
-            order = float(values.get("order", 1)) * (1 if reflects else -1)
-            return Grating(lines, order, degrees(atan2(-x, y)))
+            return grating(lines, float(values.get("order", 1)), (x, y), reflects)
     if _kind(element) != "DiffractiveElement" or values.get("phase_fct_name") != "radial_phase_fct":
         raise source.error(
             "{surface} diffracts ({kind}) and not by a phase in powers of r²; only such phases are read",
@@ -182,6 +176,15 @@ def _diffraction(surface: RawSurface, element: Any, unit_mm: float, source: Lens
     wavelength = float(values["ref_wl"]) / (NM_PER_UM * UM_PER_MM * unit_mm)
     terms = tuple(2 * pi / wavelength * float(c) for c in values["coefficients"])
     return Diffraction(terms, 1.0, float(values.get("order", 1)))
+
+
+def grating(lines: float, order: float, normal: tuple[float, float], reflects: bool) -> Grating:
+    """Return a grating with lines across its normal.
+
+    A positive order turns rays that pass away from the normal, and rays that it reflects towards it.
+    """
+    x, y = normal
+    return Grating(lines, order * (1 if reflects else -1), degrees(atan2(-x, y)))
 
 
 def _profile(values: dict[str, Any], model: dict[str, Any]) -> Any:

@@ -8,24 +8,31 @@ from math import inf
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GeometryError
 from p2sf.glass.media import MIRROR
+from p2sf.lens.grating import Grating
 from p2sf.lens.lens import Lens
 from p2sf.lens.tilts import Breaks, decentred_surface
 from p2sf.lensfile.assemble import assemble
 from p2sf.lensfile.conjugates import FAR
 from p2sf.lensfile.formats.json_parts import JsonPart, read_json
-from p2sf.lensfile.formats.ray_optics import APERTURES, DECENTRES, FIELDS
+from p2sf.lensfile.formats.ray_optics import APERTURES, CURVED, DECENTRES, FIELDS, grating
 from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.raw import RawGlass, RawLens, RawSurface
 from p2sf.lensfile.report import Notebook
 from p2sf.lensfile.source_text import LensText, number
 from p2sf.messages import Message
 
+KEYS = (
+    *("label", "curvatureRadius", "thickness", "medium", "manufacturer", "semiDiameter", "aspherical", "decenter"),
+    *("diffractionGrating", "diffractiveElement"),
+)
+TOP_KEYS = "setAutoAperture", "specs", "object", "image", "surfaces"
 STEPS = {"Conic": 0, "EvenAspherical": 2, "RadialPolynomial": 1}  # powers of r from one coefficient to the next
 
 
 def read_ray_optics_web(source: LensText, sources: GlassSources, notes: Notebook) -> Lens:
-    """Return the lens of a ray-optics-web file; LensFileError for gratings and shapes that are not round."""
+    """Return the lens of a ray-optics-web file; LensFileError for shapes that are not round."""
     top = read_json(source)
+    top.note_unknown(notes, TOP_KEYS)
     raw = RawLens()
     raw.object_distance = top.part("object").number("distance", default=inf)
     if not abs(raw.object_distance) < FAR:
@@ -33,11 +40,14 @@ def read_ray_optics_web(source: LensText, sources: GlassSources, notes: Notebook
     raw.object_stated = "distance" in top.part("object").values
     raw.object_glass = _glass(top.part("object"))
     for part in top.parts("surfaces", "curvatureRadius"):
+        part.note_unknown(notes, KEYS)
         raw.surfaces.append(_surface(part))
         if part.text("label").lower() == "stop":
             raw.stop = part.surface
-    image = top.part("image")
-    raw.sensor_before, _ = _breaks(JsonPart(image.values, source, 1, len(raw.surfaces) + 1))
+    image = JsonPart(top.part("image").values, source, 1, len(raw.surfaces) + 1)
+    raw.sensor_before, _ = _breaks(image)
+    raw.image = RawSurface(len(raw.surfaces) + 1, curvature=image.curvature("curvatureRadius", default=0.0))
+    _shape(image, raw.image)
     _conditions(top.part("specs"), raw, source)
     return assemble(raw, sources, notes, source)
 
@@ -48,20 +58,37 @@ def _surface(part: JsonPart) -> RawSurface:
     surface.curvature, surface.thickness = part.curvature("curvatureRadius"), part.thickness("thickness")
     surface.semi_diameter = part.number("semiDiameter", default=inf) or inf
     surface.before, surface.after = _breaks(part)
+    _shape(part, surface)
+    surface.glass = _glass(part)
+    surface.diffraction = _grating(part, surface)
+    return surface
+
+
+def _shape(part: JsonPart, surface: RawSurface) -> None:
+    shape = part.part("aspherical")
+    if not shape.values:
+        return
+    kind = shape.text("kind")
+    if kind not in STEPS:
+        part.refuse(
+            "surface {surface} has type {kind}, which is not read; only {known} are", kind=kind, known=tuple(STEPS)
+        )
+    surface.conic = shape.number("conicConstant", default=0.0)
+    terms = shape.numbers("polynomialCoefficients")
+    surface.aspheric = {STEPS[kind] * place: value for place, value in enumerate(terms, 1) if value}
+
+
+def _grating(part: JsonPart, surface: RawSurface) -> Grating | None:
+    """Return the grating of a plane, whose normal is that of ray-optics, y; LensFileError for other diffraction."""
     if part.values.get("diffractiveElement"):
         part.refuse("surface {surface} diffracts, which is not read of this format")
-    shape = part.part("aspherical")
-    if shape.values:
-        kind = shape.text("kind")
-        if kind not in STEPS:
-            part.refuse(
-                "surface {surface} has type {kind}, which is not read; only {known} are", kind=kind, known=tuple(STEPS)
-            )
-        surface.conic = shape.number("conicConstant", default=0.0)
-        terms = shape.numbers("polynomialCoefficients")
-        surface.aspheric = {STEPS[kind] * place: value for place, value in enumerate(terms, 1) if value}
-    surface.glass = _glass(part)
-    return surface
+    stated = part.part("diffractionGrating")
+    if not stated.values:
+        return None
+    if surface.curvature:
+        raise part.source.error(CURVED, part.line, surface=surface.name)
+    reflects = surface.glass is not None and surface.glass.medium == MIRROR
+    return grating(stated.number("lpmm"), stated.number("order", default=1.0), (0.0, 1.0), reflects)
 
 
 def _breaks(part: JsonPart) -> Breaks:

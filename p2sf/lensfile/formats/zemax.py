@@ -4,7 +4,7 @@ Surface numbers are the file's: SURF 0 is the object, the last SURF the image, s
 """
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from copy import deepcopy
 from dataclasses import dataclass, field, replace
 from math import inf
@@ -61,6 +61,7 @@ READ_TYPES = (
     *ANAMORPHIC,
     *FREEFORMS,
 )
+WITH_EXTRA_DATA = "XASPHERE", "XOSPHERE", "BINARY_2", "QED_TYPE"
 MOST_TERMS = 60  # of an extended asphere or a phase
 UNKNOWN_TYPE = Message("which P2SF does not trace")
 HARMLESS = (
@@ -125,6 +126,7 @@ class Operand:
     configuration: int
     word: str
     line: int
+    last: int = 0
 
 
 @dataclass
@@ -139,11 +141,13 @@ class ZemaxReading:
     kinds: dict[int, str] = field(default_factory=dict)
     parameters: dict[int, dict[int, float]] = field(default_factory=dict)
     extra: dict[int, dict[int, float]] = field(default_factory=dict)
+    extra_lines: dict[int, int] = field(default_factory=dict)  # the first of each surface
     x_fields: list[float] = field(default_factory=list)
     y_fields: list[float] = field(default_factory=list)
     field_count: int | None = None
     wavelength_count: int | None = None
     configurations: int = 1
+    current: int = 1
     operands: list["Operand"] = field(default_factory=list)
     solves: list[Solve] = field(default_factory=list)
     vignetting: dict[str, list[float]] = field(default_factory=dict)  # VDX, VDY, VCX, VCY and VAN
@@ -298,11 +302,16 @@ def _glass_catalogues(reading: ZemaxReading, words: list[str]) -> None:
 
 
 def _configurations(reading: ZemaxReading, words: list[str]) -> None:
-    reading.configurations = max(1, int(reading.number(words, 1, Message("number of configurations"), 1.0)))
+    reading.configurations, reading.current = (
+        max(1, int(reading.number(words, place, Message("number of configurations"), 1.0))) for place in (1, 2)
+    )
 
 
 def _operand(reading: ZemaxReading, text: str) -> None:
-    """Read THIC 5 2 12.5 …: operand, surface or number, configuration, value; texts may be in quotation marks."""
+    """Read THIC 5 2 12.5 …: operand, surface or number, configuration, value; texts may be in quotation marks.
+
+    The sixth word of IGNM is the last of several surfaces.
+    """
     words = re.findall(r'"[^"]*"|\S+', text)
     if len(words) < 4:
         raise reading.source.error("{keyword}: a value is missing; complete the line", reading.line, keyword=words[0])
@@ -310,18 +319,26 @@ def _operand(reading: ZemaxReading, text: str) -> None:
         whole(word, what, reading.source, reading.line)
         for word, what in ((words[1], Message("surface or number")), (words[2], Message("configuration")))
     )
-    reading.operands.append(Operand(words[0].upper(), place, configuration, words[3].strip('"'), reading.line))
+    name, last = words[0].upper(), place
+    if name == "IGNM" and len(words) > 5:
+        last = whole(words[5], Message("surface or number"), reading.source, reading.line)
+    reading.operands.append(Operand(name, place, configuration, words[3].strip('"'), reading.line, last))
 
 
 def begin_surface(reading: ZemaxReading, words: list[str]) -> None:
     """Begin surface SURF n, which must be the next one; LensFileError."""
     count = whole(words[1] if len(words) > 1 else "", Message("surface number"), reading.source, reading.line)
-    if count != len(reading.surfaces):
+    due = len(reading.surfaces)
+    if count < due:
         raise reading.source.error(
-            "surface {number} is where {due} is expected; sort them",
+            "surface {number} is where {due} is expected; sort them", reading.line, number=count, due=due
+        )
+    if count > due:
+        raise reading.source.error(
+            "surface {due} is missing before surface {number}; add it, or close the gap in the numbers",
             reading.line,
             number=count,
-            due=len(reading.surfaces),
+            due=due,
         )
     reading.surfaces.append(RawSurface(count, reading.line))
 
@@ -364,6 +381,7 @@ def _extra(reading: ZemaxReading, words: list[str]) -> None:
     """Read XDAT number value: the extra data of extended aspheres and phases."""
     place = whole(words[1] if len(words) > 1 else "", Message("number of extra data"), reading.source, reading.line)
     reading.extra.setdefault(reading.surface.number, {})[place] = reading.number(words, 2, Message("extra data"))
+    reading.extra_lines.setdefault(reading.surface.number, reading.line)
 
 
 def _stop(reading: ZemaxReading, words: list[str]) -> None:
@@ -422,7 +440,7 @@ def _own_tilt(reading: ZemaxReading, words: list[str]) -> None:
 
 
 def _glass(reading: ZemaxReading, words: list[str]) -> None:
-    """Read GLAS name mode pickup nd vd …; nd and vd count only for the name ___BLANK, a model glass."""
+    """Read GLAS name mode pickup nd vd …; nd and vd count for the name ___BLANK, a model glass, else with consent."""
     name = words[1] if len(words) > 1 else ""
     if name.upper() == "MIRROR":
         reading.surface.glass = RawGlass(medium=MIRROR, line=reading.line)
@@ -441,7 +459,9 @@ def _glass(reading: ZemaxReading, words: list[str]) -> None:
     elif name.isdigit() and len(name) == 6:
         reading.surface.glass = RawGlass(model=(1 + int(name[:3]) / 1000, int(name[3:]) / 10), line=reading.line)
     elif name:
-        reading.surface.glass = RawGlass(name, line=reading.line)
+        nd, vd = (reading.number(words, place, what, 0.0) for place, what in ((4, "nd"), (5, "vd")))
+        beside = (nd, vd) if nd > 1 and vd > 0 else None
+        reading.surface.glass = RawGlass(name, line=reading.line, beside=beside)
 
 
 ON_SURFACE = {
@@ -491,23 +511,37 @@ def read_zemax(source: LensText, sources: GlassSources, notes: Notebook) -> Lens
             _read_line(reading, words, text.strip())
     _note_unread(reading)
     count = min(reading.configurations, MOST_COLUMNS)
-    stated = [_configuration(reading, number) for number in range(1, count + 1)]
+    numbers = _with_same_surfaces(reading, count)
+    stated = [_configuration(reading, k, notes if k == numbers[0] else Notebook()) for k in numbers]
     return assemble_all(stated, sources, notes, source)
 
 
-def _configuration(reading: ZemaxReading, number: int) -> Configuration:
+def _with_same_surfaces(reading: ZemaxReading, count: int) -> Sequence[int]:
+    """Return the numbers of all configurations, or of the present one where they do without different surfaces."""
+    every = range(1, count + 1)
+    gone = {k: [(o.number, o.last) for o in reading.operands if o.configuration == k and _ignores(o)] for k in every}
+    if all(each == gone[1] for each in gone.values()):
+        return every
+    present = reading.current if reading.current in every else 1
+    told = "the configurations ignore different surfaces ({names}); the present one, {number}, is read alone"
+    reading.notes.add("caution", told, names=IGNORED, number=present)
+    return (present,)
+
+
+def _configuration(reading: ZemaxReading, number: int, notes: Notebook) -> Configuration:
     """Return the lens of one configuration: what the surface lines say, with the operands' values in their place."""
     own = replace(
         reading,
-        notes=reading.notes if number == 1 else Notebook(),
+        notes=notes,
         raw=deepcopy(reading.raw),
         surfaces=deepcopy(reading.surfaces),
+        kinds=dict(reading.kinds),
         parameters=deepcopy(reading.parameters),
         x_fields=list(reading.x_fields),
         y_fields=list(reading.y_fields),
     )
     mine = [operand for operand in reading.operands if operand.configuration == number]
-    for operand in mine:
+    for operand in sorted(mine, key=lambda each: each.name in IGNORED):
         if operand.name in OPERANDS:
             own.line = operand.line
             OPERANDS[operand.name](own, operand)
@@ -604,10 +638,25 @@ def _other_stop(reading: ZemaxReading, operand: Operand) -> None:
     reading.raw.stop = whole(operand.word, Message("stop surface"), reading.source, operand.line)
 
 
+def _ignores(operand: Operand) -> bool:
+    return operand.name in IGNORED and operand.word.strip("+-0.") != ""
+
+
+def _ignore(reading: ZemaxReading, operand: Operand) -> None:
+    """Make planes without effect, at no distance, of surfaces that a configuration does without."""
+    if not _ignores(operand):
+        return
+    for place in range(operand.number, max(operand.number, operand.last) + 1):
+        surface = _surface_of(reading, replace(operand, number=place))
+        reading.surfaces[place] = RawSurface(place, surface.line, surface.label, keeps_medium=True)
+        reading.kinds[place], reading.parameters[place] = "STANDARD", {}
+
+
 def _other_primary(reading: ZemaxReading, operand: Operand) -> None:
     reading.raw.primary = whole(operand.word, Message("primary wavelength"), reading.source, operand.line) - 1
 
 
+IGNORED = "IGNR", "IGNM"
 OPERANDS: dict[str, Callable[[ZemaxReading, Operand], None]] = {
     "THIC": _on_surface("thickness", Message("thickness")),
     **{f"PAR{place}": _in_parameters(place) for place in range(1, 9)},
@@ -621,9 +670,10 @@ OPERANDS: dict[str, Callable[[ZemaxReading, Operand], None]] = {
     "YFIE": _in_list(lambda reading: reading.y_fields, Message("field")),
     "WAVE": _in_list(lambda reading: reading.raw.wavelengths_um, Message("wavelength")),
     "PRWV": _other_primary,
+    **dict.fromkeys(IGNORED, _ignore),
 }
 UNREAD_OPERANDS = (
-    "PRAM MCOM IGNR IGNM CROR COTN EDVA FLTP FLWT FVAN FVCX FVCY FVDX FVDY HOLD MABB MDPG MIND NPAR NPOS NPRO PRES "
+    "PRAM MCOM CROR COTN EDVA FLTP FLWT FVAN FVCX FVCY FVDX FVDY HOLD MABB MDPG MIND NPAR NPOS NPRO PRES "
     "PXAR PYAR PZAR PUCN PUPR SATP SDRW SWCN TELE TEMP TSP1 TSP2 TSP3 UDAF "
     "WLWT CADX CADY CATX CATY CATZ CBDX CBDY CBTX CBTY CBTZ CPCN"
 ).split()
@@ -643,7 +693,7 @@ def _read_line(reading: ZemaxReading, words: list[str], text: str) -> None:
         _add_solve(reading, words)
     elif keyword in IN_SYSTEM:
         IN_SYSTEM[keyword](reading, words)
-    elif reading.configurations > 1 and keyword in (*OPERANDS, *UNREAD_OPERANDS, "LTTL"):
+    elif keyword in IGNORED or (reading.configurations > 1 and keyword in (*OPERANDS, *UNREAD_OPERANDS, "LTTL")):
         _operand(reading, text)
     elif keyword == "NAME":
         reading.raw.title = text[4:].strip().strip('"')
@@ -696,6 +746,8 @@ def _shape(reading: ZemaxReading, surface: RawSurface) -> None:
     """Give an asphere its terms and a phase; a coordinate break is a plane in the medium before it."""
     parameters = reading.parameters.get(surface.number, {})
     kind = reading.kinds.get(surface.number, "STANDARD")
+    if kind not in (*WITH_EXTRA_DATA, *FREEFORMS, *ANAMORPHIC):
+        _note_extra(reading, surface, kind)
     if kind == "COORDBRK":
         placement = coordinate_break(parameters)
         surface.keeps_medium, surface.before = True, () if placement.idle else (placement,)
@@ -727,6 +779,15 @@ def _shape(reading: ZemaxReading, surface: RawSurface) -> None:
     elif any(terms):
         every = terms if step == 1 else tuple(x for term in terms for x in (0.0, term))
         surface.shape = RadialPolynomial(every, radius)
+
+
+def _note_extra(reading: ZemaxReading, surface: RawSurface, kind: str) -> None:
+    """Note extra data of a type that has none."""
+    places = tuple(place for place, value in reading.extra.get(surface.number, {}).items() if value)
+    if places:
+        told = "its extra data (XDAT {places}) are left out, since a surface of type {kind} has none"
+        line = reading.extra_lines[surface.number]
+        reading.notes.add("caution", told, surface.number, line, places=places, kind=kind)
 
 
 def _anamorphic(
