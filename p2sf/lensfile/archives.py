@@ -21,7 +21,7 @@ from p2sf.files.reading import zip_archive
 LARGEST_BYTES = 4_000_000
 LENSES = (".zmx", ".seq", ".len", ".roa", ".fx", ".json", ".txt")
 CATALOGUE = ".agf"
-MOST_CATALOGUES = 50
+MOST_CATALOGUES = 20  # of the largest two seconds of reading
 DAMAGED = (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError, OSError, ValueError)
 COMPRESSED = ".LZW"
 ZIP = b"PK\x03\x04"
