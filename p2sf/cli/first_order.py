@@ -8,7 +8,8 @@ import numpy as np
 from p2sf.camera import Setup, set_up
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName
 from p2sf.cli.screen import Row, heading, print_json, print_table, warn
-from p2sf.lens.misalignment import misalignments
+from p2sf.lens.lens import Lens
+from p2sf.lens.misalignment import in_meridian, misalignments
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.first_order import abcd, cardinal_points, image_distance, magnification
 from p2sf.paraxial.lens_checks import lens_checks
@@ -56,7 +57,11 @@ def info(lens: LensName, /, *, request: Asked = AS_IN_THE_FILE, as_json: Json = 
         warn(message)
     chosen = {"file": "as the file says", "auto": "the narrowest rim"}[setup.stop.chosen_by]
     notes = {"stop_surface": chosen}
-    rows: list[Row] = [(label, _look_up(facts, key), unit or notes.get(key, "")) for key, label, unit in INFO_ROWS]
+    rows: list[Row] = []
+    for key, label, unit in INFO_ROWS:
+        value, across = _look_up(facts, key), _look_up(facts.get("in_x", facts), key)
+        rows.append((label if across in (value, None) else f"{label}, in y", value, unit or notes.get(key, "")))
+        rows += [] if across in (value, None) else [(f"{label}, in x", across, unit)]
     rows += [
         (f"ABCD matrix, {name}", value, unit) for name, value, unit in zip("ABCD", facts["abcd"], _ABCD, strict=True)
     ]
@@ -67,27 +72,39 @@ _ABCD = ("", "mm", "1/mm", "")
 
 
 def first_order(setup: Setup) -> dict[str, Any]:
-    """Return the first-order data of a setup; distances in mm, positive to the right of the vertex in their name."""
-    lens, depth, wavelength = setup.lens, setup.source.depth_mm, setup.source.wavelength_um
+    """Return the first-order data of a setup; distances in mm, positive to the right of the vertex in their name.
+
+    Of cylinders, toroids and biconics those in yz, and "in_x" those in xz.
+    """
+    along_y, along_x = (in_meridian(setup.lens, azimuth) for azimuth in (0.0, 90.0))
+    facts = {
+        "stop_surface": int(setup.stop.surface),
+        "stop_semi_diameter": float(setup.stop.semi_diameter),
+        **_paraxial(along_y, setup),
+        **({"misalignment": [str(words) for words in moved]} if (moved := misalignments(setup.lens)) else {}),
+    }
+    return facts if along_x == along_y else {**facts, "in_x": _paraxial(along_x, setup)}
+
+
+def _paraxial(lens: Lens, setup: Setup) -> dict[str, Any]:
+    """Return what paraxial rays say of a lens, or of one meridian of it, behind the stop of a setup."""
+    depth, wavelength = setup.source.depth_mm, setup.source.wavelength_um
     ends = pupils(lens, wavelength, setup.stop)
     return {
         "abcd": abcd(lens, wavelength).ravel().tolist(),
         **{name: float(value) for name, value in asdict(cardinal_points(lens, wavelength)).items()},
-        "stop_surface": int(setup.stop.surface),
-        "stop_semi_diameter": float(setup.stop.semi_diameter),
         "entrance_pupil": {"from_first": float(ends.entrance_from_first), "diameter": float(ends.entrance_diameter)},
         "exit_pupil": {"from_last": float(ends.exit_from_last), "diameter": float(ends.exit_diameter)},
         "numerical_aperture": float(numerical_aperture(lens, depth, wavelength, setup.stop)),
         "f_number": float(f_number(lens, wavelength, setup.stop)),
         "image_distance": float(image_distance(lens, depth, wavelength)),
         "magnification": float(magnification(lens, depth, wavelength)),
-        **({"misalignment": [str(words) for words in moved]} if (moved := misalignments(lens)) else {}),
     }
 
 
 def _look_up(facts: Any, key: str) -> object:
     for part in key.split("."):
-        facts = facts[part]
+        facts = facts.get(part)
     return facts
 
 

@@ -54,6 +54,13 @@ class Anamorphic(Shape):
         """Return the curvatures at the vertex in xz and in yz, per mm."""
         return _curvature(self.radius_x), _curvature(self.radius_y)
 
+    def curvature_at(self, azimuth_deg: float) -> float:
+        """Return the curvature at the vertex, per mm, of the section at an azimuth, from +y towards +x (Euler)."""
+        across, up = self.curvatures
+        up += 2 * sum(self.coefficients[:1])  # of y²
+        angle = radians(azimuth_deg + self.turn_deg)
+        return across * sin(angle) ** 2 + up * cos(angle) ** 2
+
     @property
     def numbers(self) -> tuple[float, ...]:
         """Return all numbers of the shape."""

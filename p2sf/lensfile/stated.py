@@ -11,6 +11,7 @@ import numpy as np
 
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
+from p2sf.lens.misalignment import in_meridian
 from p2sf.lensfile.report import ImportReport, Notebook
 from p2sf.lensfile.source_text import LensText
 from p2sf.messages import Message
@@ -65,7 +66,7 @@ def in_remarks(source: LensText) -> Iterator[Stated]:
 def compare(stated: list[Stated], lens: Lens, notes: Notebook) -> None:
     """Note each stated number beside that of the lens; one that is more than `SAME` off is a caution."""
     for each in stated:
-        found = _of_lens(each.kind, lens)
+        found = _nearest(each, lens)
         if found is None or not isfinite(found) or not each.value:
             continue
         off = abs(found) / abs(each.value) - 1
@@ -88,6 +89,13 @@ def stated_in(report: ImportReport, kind: StatedKind) -> float | None:
     found = (note.message.values for note in report.notes if note.message.values.get("what") == WORDS[kind])
     value = next((values["stated"] for values in found), None)
     return value if isinstance(value, float) else None
+
+
+def _nearest(stated: Stated, lens: Lens) -> float | None:
+    """Return what the lens has of a kind, in that of its meridians which is nearer to what is stated."""
+    both = [_of_lens(stated.kind, in_meridian(lens, azimuth)) for azimuth in (0.0, 90.0)]
+    known = [each for each in both if each is not None]
+    return min(known, key=lambda each: abs(abs(each) - abs(stated.value)), default=None)
 
 
 def _of_lens(kind: StatedKind, lens: Lens) -> float | None:

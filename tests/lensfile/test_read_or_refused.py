@@ -1,11 +1,13 @@
 """What files state is read, or refused or named; nothing is dropped in silence, and no caution is false."""
 
+import json
 import zipfile
 from math import asin, inf, sin, tan
 
 import numpy as np
 import pytest
 
+from p2sf.cli import main
 from p2sf.errors import LensFileError
 from p2sf.lens.source import Source
 from p2sf.lensfile import load_lens
@@ -234,3 +236,21 @@ def test_an_archive_of_2010_opens(tmp_path):
     assert [name for name, _ in unpack(path.read_bytes(), "old.zar")] == ["lens.zmx"]
     assert import_lens(path).lens.surfaces == load_lens(FILES / "lf7_900nm.zmx").surfaces
     assert not zipfile.is_zipfile(path)
+
+
+def test_cylinders_have_a_focal_length_in_each_meridian(capsys):
+    """1/f = (n − 1)/R in the one, and no power in the other; the file's 96.7 mm is right, so that nothing is cautioned.
+
+    nd and vd of the file make a model of glass, whose nd is exact.
+    """
+    expected = 50 / 0.5168
+    assert not cautions(found("cylinder.fx"))
+    assert main(["info", str(FILES / "cylinder.fx"), "--json"]) in (0, None)
+    facts = json.loads(capsys.readouterr().out)
+    assert facts["in_x"]["effective_focal_length"] == pytest.approx(expected, rel=1e-5)
+    assert facts["effective_focal_length"] is None  # infinite
+    assert main(["info", str(FILES / "crossed_cylinders.fx"), "--json"]) in (0, None)
+    crossed = json.loads(capsys.readouterr().out)
+    for part in (crossed, crossed["in_x"]):
+        assert part["effective_focal_length"] == pytest.approx(expected, rel=1e-5)
+    assert crossed["back_focal_distance"] != pytest.approx(crossed["in_x"]["back_focal_distance"], rel=0.05)
