@@ -11,6 +11,8 @@ from p2sf.errors import RequestError
 from p2sf.messages import Message
 from p2sf.parameters import check_positive
 
+FEWEST_FLAT = 3  # pixels side by side of one value that make a flat top
+NEAR_TOP = 0.02  # of the peak's height: the pixels just below a top
 MAD = 1.4826  # median absolute deviation to standard deviation of a normal distribution
 
 
@@ -122,8 +124,38 @@ class Frame:
     @property
     def saturated_pixels(self) -> np.ndarray:
         """Return which pixels have reached full scale, (rows, columns)."""
-        full: np.ndarray = np.greater_equal(self.values, self.noise.full_scale)
+        full: np.ndarray = np.greater_equal(self.values, min(self.noise.full_scale, self.clipped_at))
         return full
+
+    @cached_property
+    def clipped_at(self) -> float:
+        """Return the counts at which pixels were clipped, told by flat tops; inf where there are none.
+
+        That is the highest value, if more pixels have it than there are just below it, some of them side by side: the
+        top of a smooth peak has few pixels, and fewer the higher.
+        """
+        from scipy import ndimage
+
+        top = float(np.nanmax(self.values[np.isfinite(self.values)]))
+        at, under = self.values == top, self.values < top
+        if at.sum() < FEWEST_FLAT or not under.any():
+            return inf
+        below = min(float(self.values[under].max()), top - NEAR_TOP * (top - self.background))
+        labels, _ = ndimage.label(at)
+        sizes = np.bincount(labels.ravel())[1:]
+        return top if sizes.max() >= FEWEST_FLAT and at.sum() > (under & (self.values >= below)).sum() else inf
+
+    @property
+    def clipped(self) -> Message | None:
+        """Return a warning where pixels were clipped below the full scale that is stated; else None."""
+        if self.clipped_at >= self.noise.full_scale:
+            return None
+        return Message(
+            "{count} pixels have the highest count, {top:g}, side by side: they were clipped, and do not count; expose "
+            "less, or state the full scale",
+            count=int((self.values == self.clipped_at).sum()),
+            top=self.clipped_at,
+        )
 
     @property
     def usable(self) -> np.ndarray:

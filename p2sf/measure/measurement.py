@@ -95,7 +95,7 @@ class Measurement:
     @property
     def warnings(self) -> tuple[Message, ...]:
         """Return what a reader has to know of the pictures, beside the warnings of each point and of the frame."""
-        out = tuple(note for frame in self.frames for note in frame.notes)
+        out = tuple(note for frame in self.frames for note in (*frame.notes, frame.clipped) if note)
         chi2 = [one.chi2 for one in self.fits if one is not None] or [self.whole.chi2 if self.whole else 1.0]
         if not self.frames[0].psf and (low := float(np.median(chi2))) < LEAST_CHI2:
             why = Message(

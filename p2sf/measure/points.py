@@ -110,7 +110,7 @@ def _labels(frame: Frame) -> tuple[np.ndarray, int]:
     smooth = ndimage.gaussian_filter(light, SMOOTH_PIXELS)
     # Averaging over a Gaussian leaves 1/(2√π·width) of white noise.
     bright = smooth > SIGNIFICANT * frame.background_noise / (2 * np.sqrt(np.pi) * SMOOTH_PIXELS)
-    joined = ndimage.binary_dilation(bright, iterations=BRIDGE)
+    joined = ndimage.binary_fill_holes(ndimage.binary_dilation(bright, iterations=BRIDGE))  # over a blur's dark rings
     labels, count = ndimage.label(joined, np.ones((3, 3)))
     return np.where(bright, labels, 0), int(count)
 

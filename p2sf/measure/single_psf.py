@@ -1,5 +1,6 @@
 """The wavefront behind one PSF given as an array, by the fits that photographs of points are measured with."""
 
+from dataclasses import replace
 from math import inf
 from typing import Literal
 
@@ -81,4 +82,5 @@ def fit_psf(
     made = measure_frame([frame], optics, FrameRequest(model=model))
     if made.fits[0] is None:
         raise RequestError(made.failures[0] or NOT_FITTED)
-    return made.fits[0]
+    found = made.fits[0]
+    return replace(found, warnings=(*found.warnings, frame.clipped)) if frame.clipped else found

@@ -1,7 +1,7 @@
 """Measuring what was simulated: ``python -m tests.long.measure points 200``, and others of ``main``.
 
-The long ones run in parts: ``points 50 2`` takes 50 trials from the seed 2, and so do ``free``, ``frames``,
-``coverage`` and ``misaligned``; give each part a seed of its own and pool what they print.
+The long ones run in parts: ``points 50 2`` takes 50 trials from the seed 2, and so do ``faint``, ``free``,
+``frames``, ``coverage`` and ``misaligned``; give each part a seed of its own and pool what they print.
 
 Pictures of points come from a sum over other pupil nodes, with other points across a pixel, than a fit takes; frames go
 the whole way from the picture: points are found, cut out and fitted. Every table states its counts. CPU seconds.
@@ -15,6 +15,7 @@ from time import process_time
 
 import numpy as np
 
+import p2sf
 from p2sf.image import Forming, form_image
 from p2sf.image.charts import draw_chart
 from p2sf.image.deblur import psnr
@@ -48,6 +49,7 @@ OPTICS = PictureOptics(0.125, 0.55, 2.2)  # pixels of λ/2NA
 PIXELS = 40
 SECOND_FOCUS = 1.5  # waves
 NOISE, PEAK = 0.01, 1000.0
+FAINT_NOISE = 0.01, 0.03, 0.05, 0.1
 MOST_WAVES = 3.0
 NODES = 48, 144
 LISTED = Path(__file__).parents[1] / "data" / "opticstudio"
@@ -83,9 +85,14 @@ def light(waves: np.ndarray, fx: np.ndarray, fy: np.ndarray, nodes: Nodes, place
 
 
 def pictures(
-    model: PupilModel, numbers: np.ndarray, place: np.ndarray, foci: tuple[float, ...], rng: np.random.Generator
+    model: PupilModel,
+    numbers: np.ndarray,
+    place: np.ndarray,
+    foci: tuple[float, ...],
+    rng: np.random.Generator,
+    noise: float = NOISE,
 ) -> list[PointPicture]:
-    """Return noisy pictures of a point at known focus positions."""
+    """Return pictures of a point at known focus positions, their noise a share of the peak."""
     nodes = whole_disc()
     parts, across, along = model.split(numbers)
     waves = parts @ model.waves(nodes.xi, nodes.eta)
@@ -96,8 +103,8 @@ def pictures(
     made = []
     for focus in foci:
         found = light(waves + focus * (nodes.xi**2 + nodes.eta**2), fx, fy, nodes, place)
-        counts = found * (PEAK / found.max()) + 100 + rng.normal(0, NOISE * PEAK, found.shape)
-        made.append(PointPicture(counts, (NOISE * PEAK) ** 2, focus))
+        counts = found * (PEAK / found.max()) + 100 + rng.normal(0, noise * PEAK, found.shape)
+        made.append(PointPicture(counts, (noise * PEAK) ** 2, focus))
     return made
 
 
@@ -130,6 +137,33 @@ def six_coefficients(trials: int, seed: int) -> None:
             print(f"  {trial}: {told}, {seconds[-1]:.2f} s", flush=True)
         report(f"six, {len(foci)} focus, {trials} trials", np.array(errors), np.array(bounds), seconds)
         print(f"  wrong signs (of numbers over 0.1 waves; with one focus in both twins): {wrong}")
+
+
+def faint(count: int, seed: int) -> None:
+    """Print which answers of `p2sf.fit_psf` on noisy frames of one point are wrong without a word.
+
+    Four random coefficients and noise of 1, 3, 5 and 10 % of the peak, which is not stated. A frame is wrong where no
+    solution has all numbers within 5 of its own standard deviations, and silent where the one warning is that which
+    every single focus has, that the sign of the even terms is open.
+    """
+    model = pupil_model("seidel")
+    for noise in FAINT_NOISE:
+        rng, wrong, silent, seconds = np.random.default_rng([seed, round(1000 * noise)]), 0, 0, []
+        for trial in range(count):
+            six, place = random_six(rng), rng.uniform(-1, 1, 2) * OPTICS.pixel_um
+            (taken,) = pictures(model, six, place, (0.0,), rng, noise)
+            began = process_time()
+            found = p2sf.fit_psf(taken.values, 0.125, 550.0, OPTICS.pixel_um)
+            seconds.append(process_time() - began)
+            off = [float(np.abs((numbers - six) / found.errors).max()) for numbers in (found.numbers, *found.others)]
+            if min(off) > 5:
+                wrong, silent = wrong + 1, silent + (len(found.warnings) < 2)
+                print(f"  {noise:.0%} {trial}: {np.round(six, 3)} found {found}, {min(off):.1f} sigma", flush=True)
+        print(
+            f"noise {noise:.0%}, {count} frames: {wrong} beyond 5 sigma, {silent} of them silent; CPU median "
+            f"{np.median(seconds):.2f}, largest {max(seconds):.2f} s",
+            flush=True,
+        )
 
 
 def report(title: str, errors: np.ndarray, bounds: np.ndarray, seconds: list[float]) -> None:
@@ -337,6 +371,7 @@ def main(arguments: list[str]) -> None:
     count, seed = (int(arguments[k]) if len(arguments) > k else usual for k, usual in ((1, 20), (2, 0)))
     trials = {
         "points": lambda: six_coefficients(count, seed),
+        "faint": lambda: faint(count if len(arguments) > 1 else 50, seed),
         "free": lambda: free_pupils(count, seed),
         "rdmpy": rdmpy,
         "listing": listing,

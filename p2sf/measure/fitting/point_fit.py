@@ -18,8 +18,9 @@ from p2sf.threads import one_blas_thread
 
 Loss = Literal["linear", "soft_l1", "huber", "cauchy"]
 LOSSES = ("linear", "soft_l1", "huber", "cauchy")
-TRIED = 6, 24  # starts; the second count where none of the first explains the pictures
-KEPT = 3  # coarse fits that are followed to their end
+TRIED = 6, 48  # starts; the second count where the first may not have explained the pictures
+FALSE_SHARE = 0.02  # of the pictures' squares about their mean: the best false minima of random points miss more
+KEPT = 5  # coarse fits that are followed to their end
 COARSE_STEPS, FINE_STEPS = 12, 60
 COARSE_RTOL, FINE_RTOL = 1e-2, 1e-6  # of the sum of squares in one step
 UNKNOWN_WAVES = 0.25  # one standard deviation of a number that the pictures do not determine
@@ -190,10 +191,10 @@ def _six(
         rough.sort(key=_cost)
         minima += [_descend(fine, minimum.unknowns, loss) for minimum in _distinct(rough, 4)[:KEPT]]
         minima.sort(key=_cost)
-        if 2 * minima[0].cost < fine.freedom * most_chi2(fine.freedom):
+        if explains(fine, minima[0]):
             break
     else:
-        if len(pictures) > 1:
+        if len(pictures) > 1 and 2 * minima[0].cost > fine.freedom * most_chi2(fine.freedom):
             minima += [_descend(fine, start, loss) for start in _from_each(pictures, optics, azimuth, loss, every[0])]
             minima.sort(key=_cost)
     return _distinct(minima, 4, SAME_WAVES)
@@ -212,6 +213,15 @@ def _from_each(
         for waves in (alone[:4], pupil_model(SIX).twin(alone[:4], picture.defocus_waves)):
             out.append(np.concatenate([waves, frames.ravel()]))
     return out
+
+
+def explains(problem: Problem, minimum: _Minimum) -> bool:
+    """Return whether a minimum leaves only noise, and too little for a false minimum, which misses `FALSE_SHARE`.
+
+    χ² alone does not tell: noise that is high, or taken for too high, hides what a false one misses.
+    """
+    noise = problem.freedom * most_chi2(problem.freedom)
+    return 2 * minimum.cost < min(noise, FALSE_SHARE * problem.squares(minimum.unknowns))
 
 
 def most_chi2(freedom: int) -> float:

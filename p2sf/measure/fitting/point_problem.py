@@ -99,6 +99,13 @@ class Problem:
         frames = [self.frame(unknowns, number) for number in range(len(self.pictures))]
         return tuple(frame[2] * light + frame[3] for frame, light in zip(frames, lights, strict=True))
 
+    def squares(self, unknowns: np.ndarray) -> float:
+        """Return Σ(model − mean)²/variance over the pixels that count: what of the pictures is no background."""
+        total = 0.0
+        for model, good, root in zip(self.modelled(unknowns), self.good, self.root, strict=True):
+            total += float(np.sum(((model - model[good].mean()) * root) ** 2))
+        return total
+
     def r2(self, modelled: Sequence[np.ndarray]) -> np.ndarray:
         """Return 1 − Σ(picture − model)²/Σ(picture − mean)² over the pixels that count, (pictures,)."""
         out = []

@@ -27,6 +27,7 @@ FRAME_CANDIDATES, MOMENT_STEPS = 512, 40
 SPREADS = 0.5, 1.0, 2.0, 4.0  # of a frame's candidates, in units of ``scale``
 RAY_ORDER = 6  # of polynomials of the wavefront over directions
 PULL = 0.03  # towards 0, where moments do not determine an unknown
+CANDIDATES_APART = 0.25  # of the largest number of any: neighbours in a narrower mesh end in one minimum
 APART = 0.3  # by which candidates of a frame differ, in units of ``scale``
 FIRST_DAMPING, WEAKER, STRONGER, MOST_DAMPING = 1e-2, 0.3, 5.0, 1e6
 GENERAL_GOLDEN = 1.1673039782614187
@@ -136,7 +137,10 @@ def blurring(count: int, width: float) -> np.ndarray:
 
 
 def starts(pictures: Sequence[PointPicture], optics: PictureOptics, azimuth: float, keep: int) -> list[Start]:
-    """Return the ``keep`` candidates whose pictures are most like those given, the best first. Raises RequestError."""
+    """Return ``keep`` candidates whose pictures are most like those given, the best first. Raises RequestError.
+
+    They are apart, so that not all of them lead to one minimum.
+    """
     found = [locate(picture, optics) for picture in pictures]
     waves = candidates(found, pictures, optics, azimuth)
     mean, _ = slope_moments(azimuth, optics.mask)
@@ -150,7 +154,29 @@ def starts(pictures: Sequence[PointPicture], optics: PictureOptics, azimuth: flo
         ],
         1,
     )
-    return [Start(waves[k], frames[k]) for k in np.argsort(unlike)[:keep]]
+    twin = [waves] if len(pictures) > 1 else [waves, _twins(waves, pictures[0])]
+    return [Start(waves[k], frames[k]) for k in _apart(np.argsort(unlike), twin, keep)]
+
+
+def _twins(waves: np.ndarray, picture: PointPicture) -> np.ndarray:
+    """Return the wavefronts of the same pictures as those of candidates, (candidates, 4)."""
+    model = pupil_model(SIX)
+    return np.array([model.twin(each, picture.defocus_waves) for each in waves])
+
+
+def _apart(order: np.ndarray, alike: Sequence[np.ndarray], keep: int) -> list[int]:
+    """Return the first ``keep`` of an order that differ from each other, then others if these are too few.
+
+    ``alike``: wavefronts of the candidates, and those that make the same pictures, each (candidates, 4).
+    """
+    apart = CANDIDATES_APART * float(np.abs(alike[0]).max())
+    kept: list[int] = []
+    for k in order.tolist():
+        if all(np.abs(each[kept] - alike[0][k]).max(1, initial=0.0).min(initial=np.inf) >= apart for each in alike):
+            kept.append(k)
+        if len(kept) == keep:
+            return kept
+    return [*kept, *(k for k in order.tolist() if k not in kept)][:keep]
 
 
 def candidates(
