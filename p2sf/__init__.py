@@ -11,6 +11,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from p2sf import conventions as conventions
+
     __version__: str
     from p2sf.api import choose_method, coefficients, encircled_energy, line_spread, load_lens, mtf, render, zernike
     from p2sf.camera import Camera
@@ -204,6 +206,8 @@ if not TYPE_CHECKING:  # for a checker every name is one of those above, and any
     def __getattr__(name: str) -> Any:
         if name == "__version__":
             return import_module("p2sf.version").program_version()
+        if name == "conventions":
+            return import_module("p2sf.conventions")
         if name not in __all__:
             own = import_module(__name__)  # from whose names Python suggests one
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}", name=name, obj=own)
@@ -213,4 +217,4 @@ if not TYPE_CHECKING:  # for a checker every name is one of those above, and any
 
 
 def __dir__() -> list[str]:
-    return sorted({*__all__, *(name for name in globals() if name.startswith("__"))})
+    return sorted({*__all__, "conventions", *(name for name in globals() if name.startswith("__"))})

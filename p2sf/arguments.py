@@ -36,6 +36,7 @@ WANTED = {
     "Lens": "what p2sf.load_lens returns",
     "Plan": "what p2sf.plan returns",
     "Psf": "what p2sf.render returns",
+    "Shape": "a shape, such as p2sf.lens.freeform.XYPolynomial",
 }
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -149,7 +150,10 @@ def argument(name: str, value: Any, annotation: Any) -> Any:
 
 
 def _kind_words(kind: type) -> str:
-    return WANTED.get(kind.__name__, f"a p2sf.{kind.__name__}")
+    import p2sf
+
+    public = kind.__name__ in p2sf.__all__
+    return WANTED.get(kind.__name__, f"a {'p2sf' if public else kind.__module__}.{kind.__name__}")
 
 
 @lru_cache(maxsize=256)

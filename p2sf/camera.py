@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from p2sf.arguments import check_fields, former_names, real_array
-from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope
+from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope, depth_of
 from p2sf.errors import GlassError, RequestError
 from p2sf.lens.lens import (
     Aperture,
@@ -42,7 +42,7 @@ from p2sf.parameters import (
     unit_behind,
 )
 from p2sf.paraxial.first_order import cardinal_points
-from p2sf.paraxial.positions import focused_inside, lens_at
+from p2sf.paraxial.positions import focused_inside, focused_vergence, lens_at
 from p2sf.paraxial.pupils import (
     Stop,
     field_from_image_height,
@@ -449,6 +449,7 @@ class Camera(Settings):
         lens, middle = self.its_lens, self.its_lens.reference_wavelength_um
         near, far = float(depths.min()), float(depths.max())
         seen = set_up_source(lens, Source(far, wavelength_um=middle), self.settings).lens
+        _check_metres(seen, far)
         sensor = Sensor(values.shape[0], values.shape[1], self.pixel_um)
         scene = Scene(sensor, near_mm=near, far_mm=far, rtol=rtol, clip=clip).at_depths(depths)
         if values.ndim == 2 or values.shape[2] == 1:
@@ -469,6 +470,25 @@ class Camera(Settings):
 
 
 AS_IN_FILE = Camera()
+NEARER = 100.0  # times than what is in focus: metres look a thousand times nearer
+
+
+def _check_metres(lens: Lens, far_mm: float) -> None:
+    """Raise RequestError where all depths are as near as metres are that are taken for millimetres.
+
+    That is within the front focus, where nothing has a real image, or a hundred times nearer than what is in focus.
+    """
+    focus = -float(cardinal_points(lens, lens.reference_wavelength_um).front_focal_distance)
+    sharp = depth_of(focused_vergence(lens))
+    if (isfinite(focus) and far_mm <= focus) or (isfinite(sharp) and NEARER * far_mm < sharp):
+        raise RequestError(
+            "{parameter} reaches to {far:g} mm, for a lens in focus at {sharp:.4g} mm with its front focus {focus:.4g} "
+            "mm before it; give millimetres, 1000 for each metre",
+            parameter="depth_mm",
+            far=far_mm,
+            sharp=sharp,
+            focus=focus,
+        )
 
 
 def _call_text(camera: Settings, first: list[str], given: Mapping[str, Any]) -> str:

@@ -56,6 +56,12 @@ class NamedArrays(Mapping[str, np.ndarray]):
     def __len__(self) -> int:
         return len(self.arrays)
 
+    def __eq__(self, other: object) -> bool:
+        """Return whether names, axes and numbers are the same; NaN equals NaN."""
+        if not isinstance(other, NamedArrays):
+            return NotImplemented
+        return _same(self.arrays, other.arrays) and _same(self.coords, other.coords)
+
     def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> np.ndarray:
         return np.array(next(iter(self.arrays.values()))[1], dtype, copy=copy)
 
@@ -111,6 +117,15 @@ class NamedArrays(Mapping[str, np.ndarray]):
 def along(name: str, values: np.ndarray) -> NamedAxes:
     """Return a coordinate along its own axis, or of one number without one."""
     return {name: ((name,) if values.ndim else (), values)}
+
+
+def _same(one: NamedAxes, other: NamedAxes) -> bool:
+    def equal(first: np.ndarray, second: np.ndarray) -> bool:
+        return np.array_equal(first, second, equal_nan=first.dtype.kind == second.dtype.kind == "f")
+
+    return one.keys() == other.keys() and all(
+        dims == other[name][0] and equal(values, other[name][1]) for name, (dims, values) in one.items()
+    )
 
 
 def _spread(dims: Dims, values: np.ndarray, sizes: Mapping[str, int]) -> np.ndarray:

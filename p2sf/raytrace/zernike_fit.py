@@ -31,7 +31,7 @@ LINES_PER_RADIUS = 4  # between corners and ends of edges
 RIM_RAYS = 65  # on the right half of the rim, which is clipped first
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ZernikeFit:
     """The terms of a wavefront over its pupil, each array (terms,); light may fill only part of the pupil.
 

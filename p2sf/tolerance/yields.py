@@ -142,6 +142,14 @@ def _criterion(name: str) -> tuple[Criterion, float | None]:
 
 
 def _check_limits(limits: Mapping[str, float]) -> None:
+    if not isinstance(limits, Mapping):
+        raise RequestError(
+            "{parameter} is {value}; give the least or the most of figures by name, such as {example}; tolerances are "
+            "those of a grade",
+            parameter="limits",
+            value=f"{limits!r:.60}",
+            example='{"strehl": 0.8}',
+        )
     if not limits:
         raise RequestError("{parameter} has no number; give one or more", parameter="limits")
     for name, limit in limits.items():

@@ -5,7 +5,9 @@ from functools import lru_cache
 
 import numpy as np
 
+from p2sf.errors import SamplingError
 from p2sf.measure.fitting.pupil_model import PupilModel, rotate
+from p2sf.messages import ParameterName
 from p2sf.psf.sums.plane_waves import Counts
 from p2sf.pupil.domain import ClearNodes
 from p2sf.pupil.mask import CLEAR, PupilMask
@@ -13,6 +15,7 @@ from p2sf.pupil.mask_nodes import mask_nodes
 from p2sf.pupil.quadrature import disc_nodes, nodes_for
 from p2sf.raytrace.fit import FittedPencil
 
+MOST_NODES = 1 << 19  # beyond, a fit takes gigabytes and minutes: hundreds of waves of defocus need fewer
 SAME = 1e-9  # of the disc's amplitude, and waves
 
 
@@ -34,8 +37,24 @@ class PupilNodes:
 
 
 def counts_for(slope: float, cycles: float, half_um: float) -> Counts:
-    """Return (radial, angular) counts for a wavefront's steepest slope, waves per unit radius, over ±``half_um``."""
-    return nodes_for(slope, cycles * half_um * np.sqrt(2))
+    """Return (radial, angular) counts for a wavefront's steepest slope, waves per unit radius, over ±``half_um``.
+
+    Raises SamplingError for more nodes than a fit can sum.
+    """
+    counts = nodes_for(slope, cycles * half_um * np.sqrt(2))
+    if counts[0] * counts[1] > MOST_NODES:
+        raise SamplingError(
+            "a picture {width:.3g} µm wide is {times:.2g} times as wide as the PSF of a perfect lens, λ/(2 NA) of "
+            "{perfect:.2g} µm, and its fit needs {nodes} pupil samples; check that {wavelength} is in nm and {pixel} "
+            "in µm, or crop the picture",
+            width=2 * half_um,
+            times=4 * half_um * cycles,
+            perfect=0.5 / cycles,
+            nodes=counts[0] * counts[1],
+            wavelength=ParameterName("wavelength_nm"),
+            pixel=ParameterName("pixel_um"),
+        )
+    return counts
 
 
 def open_nodes(mask: PupilMask, counts: Counts, clear: ClearNodes | None, azimuth: float) -> ClearNodes:

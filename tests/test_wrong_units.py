@@ -1,0 +1,79 @@
+"""A number in another unit, an object for a number, and two results compared: a sentence or an answer, no traceback."""
+
+import subprocess
+import sys
+import tracemalloc
+
+import numpy as np
+import pytest
+
+import p2sf
+from p2sf.arguments import _kind_words
+from p2sf.errors import RequestError, SamplingError
+
+LENS = p2sf.load_lens("tessar")
+
+
+@pytest.mark.parametrize(
+    ("wavelength_nm", "pixel_um", "na"), [(0.55, 1.375, 0.1), (550.0, 1375.0, 0.1), (550, 1.375, 60)]
+)
+def test_micrometres_for_nanometres_are_refused_at_once(wavelength_nm, pixel_um, na):
+    psf = p2sf.psf_of_opd(np.zeros((64, 64)), 0.1, 550, pixels=64)
+    tracemalloc.start()
+    with pytest.raises(SamplingError) as refused:
+        p2sf.fit_psf(psf.values, na, wavelength_nm, pixel_um)
+    most = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert "nm" in str(refused.value) and "µm" in str(refused.value)
+    assert most < 50e6  # bytes: a sum would take gigabytes
+
+
+def test_limits_are_no_tolerances():
+    errors = [p2sf.Tolerance("radius", 1, 0.1)]
+    with pytest.raises(RequestError, match="limits"):
+        p2sf.Camera(LENS).tolerances(errors)
+    with pytest.raises(RequestError, match="limits"):
+        p2sf.tolerances(LENS, p2sf.Source(), errors)
+    with pytest.raises(RequestError, match="lens"):
+        p2sf.tolerances(errors)
+
+
+def test_a_map_of_depths_in_metres_is_named():
+    camera = p2sf.Camera("double_gauss_28", focus_mm=3000, pixel_um=60, f_number=8)
+    metres = np.linspace(2.5, 9.0, 12 * 16).reshape(12, 16)
+    for depth in (metres, 3.0):
+        with pytest.raises(RequestError, match="1000 for each metre"):
+            camera.photograph(np.ones((12, 16, 3)), depth)
+    assert camera.photograph(np.ones((12, 16, 3)), 1000 * metres, rtol=0.5).shape == (12, 16, 3)
+
+
+def test_results_can_be_compared():
+    """By hand: the same call twice has the same numbers, and another depth has not."""
+    sweeps = [p2sf.Camera(LENS).sweep(depth_mm=[2000, far]).coefficients() for far in (3000, 3000, 4000)]
+    assert sweeps[0] == sweeps[1] and sweeps[0] != sweeps[2] and sweeps[0] != {} and sweeps[0] != 1
+    missing = p2sf.NamedArrays({"a": (("x",), np.array([np.nan, 1.0]))}, {})
+    assert missing == p2sf.NamedArrays({"a": (("x",), np.array([np.nan, 1.0]))}, {})
+    fits = [p2sf.zernike(LENS, terms=6) for _ in range(2)]
+    assert fits[0] == fits[0] and fits[0] != fits[1] and len({*fits}) == 2  # as PSFs are compared: by identity
+
+
+def test_the_docstring_of_the_package_is_true_in_a_fresh_interpreter():
+    code = "import p2sf; assert 'mm' in p2sf.conventions.__doc__; assert 'conventions' in dir(p2sf)"
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_what_is_asked_for_exists():
+    """Of every class that a refusal names: it is in the place that the sentence says."""
+    from importlib import import_module
+
+    from p2sf.lens.shapes import Shape
+
+    with pytest.raises(RequestError) as refused:
+        p2sf.Surface(10.0, 5.0, "N-BK7", shape="sphere")
+    for words in (
+        str(refused.value).partition("such as ")[2],
+        _kind_words(p2sf.Source)[2:],
+        _kind_words(Shape).split()[-1],
+    ):
+        module, _, name = words.rpartition(".")
+        assert hasattr(import_module(module), name)
