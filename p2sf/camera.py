@@ -387,7 +387,7 @@ class Camera(Settings):
     def sharpen(
         self,
         photo: ArrayLike,
-        depth_mm: float | None = None,
+        depth_mm: ArrayLike | None = None,
         *,
         noise: float | None = None,
         rtol: float = 0.05,
@@ -400,10 +400,10 @@ class Camera(Settings):
         ----------
         photo : array_like
             Linear light, floats with white at 1, (rows, columns, 3) or (rows, columns), as for `photograph`.
-        depth_mm : float, optional
-            The depth that is made sharp, mm; by default as for `source`.
+        depth_mm : array_like, optional
+            The depth that is made sharp, mm, or that of every pixel, (rows, columns); by default as for `source`.
         noise : float, optional
-            Standard deviation of the photo's noise; estimated from its quiet parts by default.
+            Standard deviation of the photo's noise; estimated from the photo by default.
         rtol, clip
             As for `photograph`.
         threads : int, optional
@@ -422,13 +422,10 @@ class Camera(Settings):
         from p2sf import sharpen_image
 
         values, depths = real_array("photo", photo), self._depths(depth_mm)
-        if depths.size > 1:
-            raise RequestError(
-                "{parameter} has {count} depths; give one, which is made sharp", parameter="depth_mm", count=depths.size
-            )
         pixels = np.asarray(photo).reshape(*values.shape[:2], -1)
         planned = self._plan(values, depths, rtol, clip)
-        sharp: np.ndarray = sharpen_image(planned, pixels, noise=noise, threads=threads)
+        given = None if depths.size == 1 else depths
+        sharp: np.ndarray = sharpen_image(planned, pixels, given, noise=noise, threads=threads)
         return sharp.reshape(values.shape)
 
     def _depths(self, depth_mm: ArrayLike | None) -> np.ndarray:

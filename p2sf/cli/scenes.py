@@ -5,7 +5,7 @@ from dataclasses import dataclass, fields, replace
 from math import inf
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from cyclopts import Parameter
@@ -38,9 +38,6 @@ from p2sf.scene.planning.table import plan_facts, plan_rows, plan_sentences
 from p2sf.scene.scene import DIMMEST, MOST_LIGHT, RGB
 from p2sf.scene.sensor import LARGEST_SIDE
 from p2sf.threads import using_threads
-
-if TYPE_CHECKING:
-    from p2sf.image.lattice import Lattice
 
 CHART = "chart:"
 RAW = ".npy", ".dng"
@@ -325,13 +322,19 @@ def source_picture(picture: str, scene: Scene, shown: Shown) -> Photo:
 
 
 def _form_picture(glass: Lens, scene: Scene, values: np.ndarray, shown: Shown) -> tuple[np.ndarray, dict[str, Any]]:
-    from p2sf.image import Forming, form_image, plan_lattice, preview
+    from p2sf.image import Forming, form_image, preview
     from p2sf.image.binning import fit_screen
     from p2sf.image.picture import region_of_sensor
 
     if shown.preview:
         return preview(glass, scene, values), {"method": "preview"}
     depth = depth_map(scene)  # before the plan, which takes seconds
+    if depth is not None and shown.deblur == "richardson-lucy":
+        raise RequestError(
+            "{parameter} richardson-lucy has the kernels of one depth, and the scene a map of depths; choose wiener, "
+            "which has those of each",
+            parameter="deblur",
+        )
     region = None if shown.region is None else region_of_sensor(scene.sensor, shown.region)
     if shown.longest is not None:
         scene, values, depth = fit_screen(scene, values, depth, shown.longest)
@@ -344,9 +347,8 @@ def _form_picture(glass: Lens, scene: Scene, values: np.ndarray, shown: Shown) -
     facts = {"method": shown.method, "predicted_error": planned.predicted_error}
     if not shown.deblur:
         return formed, facts
-    lattice = plan_lattice(planned, planned.vergences[0])  # of the scene's far end
     noise = noise_of(scene.sensor, light, shown)
-    return _sharpen(lattice, formed, shown, noise), {**facts, "deblur": shown.deblur}
+    return _sharpen(planned, formed, depth, shown, noise), {**facts, "deblur": shown.deblur}
 
 
 def noise_of(sensor: Sensor, light: np.ndarray, shown: Shown) -> float:
@@ -363,13 +365,15 @@ def _noisy(formed: np.ndarray, shown: Shown) -> np.ndarray:
     return noisy
 
 
-def _sharpen(lattice: "Lattice", formed: np.ndarray, shown: Shown, noise: float) -> np.ndarray:
+def _sharpen(planned: Plan, formed: np.ndarray, depth: np.ndarray | None, shown: Shown, noise: float) -> np.ndarray:
     """Return the picture sharpened with its kernels, assuming the noise of 8 bits at least."""
-    from p2sf.image.deblur import LEAST_NOISE, richardson_lucy, wiener
+    from p2sf.image import plan_lattice
+    from p2sf.image.deblur import LEAST_NOISE, richardson_lucy
+    from p2sf.image.picture import sharpen_planned
 
     if shown.deblur == "wiener":
-        return wiener(formed, lattice, max(noise, LEAST_NOISE))
-    return richardson_lucy(formed, lattice)
+        return sharpen_planned(planned, formed, depth, max(noise, LEAST_NOISE))
+    return richardson_lucy(formed, plan_lattice(planned, planned.vergences[0]))
 
 
 def sharpen(
@@ -401,8 +405,8 @@ def sharpen(
     taken = read_photo(photo, encoding)
     warn(taken.caution)
     values = taken.values if taken.values.shape[2] == 3 else taken.values[..., 0]
+    sharp = own.sharpen(values, depth_mm, noise=noise, rtol=rtol, clip=clip, threads=threads)
     level = photo_noise(taken.values) if noise is None else noise
-    sharp = own.sharpen(values, depth_mm, noise=level, rtol=rtol, clip=clip, threads=threads)
     write_photo(output, sharp, taken.encoding, kept_depth(output, taken))
     rows, columns = sharp.shape[:2]
     if as_json:

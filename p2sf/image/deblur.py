@@ -4,21 +4,30 @@ Both methods use the lattice of a plan, so that the kernel varies over the field
 one step; the Richardson–Lucy iteration keeps the light positive.
 """
 
+from collections.abc import Callable
+from dataclasses import dataclass
 from itertools import product
+from math import ceil, sqrt
 
 import numpy as np
 
 from p2sf.errors import RequestError
 from p2sf.image.blur_operator import BlurOperator
 from p2sf.image.lattice import Lattice
+from p2sf.image.layers import DepthMap, nearest_open
 from p2sf.image.progress import Progress
 from p2sf.pixel_kernels.nodes import hats
 from p2sf.threads import for_each, one_blas_thread
 
-# Of the picture's contrast: the error of kernels interpolated between nodes. With it the filter stays
-# within 0.2 dB of its best for every noise from 0.001 to 0.02; without, it loses up to 3.3 dB, and with twice the noise
-# 2.3 dB (`python -m tests.benchmarks.deblurring`).
-KERNEL_ERROR = 0.01
+KERNEL_ERROR = 0.05  # relative L2 error of kernels, interpolated between nodes: what plans usually allow
+# Power of what is wrong beyond borders, of the picture's variance there. With 0.1 no picture of
+# `tests.long.sharpening` is farther from its scene than before, with 0.01 those far out of focus are.
+BORDER_ERROR = 0.1
+KINKS = 4.0  # falloff of the spectrum of a line where the slope changes
+ALIKE = 0.5  # of the texture's least power: how far real spectra are from a power of f
+FALLOFFS = 1.0, 1.5, 2.0  # of the power of scenes: texture to edges and natural scenes (Field 1987)
+SPECTRUM_SIDE, MOST_BLOCKS, FIT_ROUNDS = 64, 16, 60  # pixels, blocks along a side, steps of a fit
+TINY = 1e-12
 LEAST_NOISE = 1e-3  # of white, a quarter of a step of 8 bits
 DARKEST = 1e-4  # of white: the floor that keeps the Richardson–Lucy ratio finite
 MAD = 1.4826  # median absolute deviation to standard deviation of a normal distribution
@@ -31,22 +40,113 @@ QUIET, OF_WHITE_NOISE = (
 CORNER = 0.02  # cycles per pixel below which spectra of natural pictures are assumed flat
 
 
-@one_blas_thread
-def wiener(
-    values: np.ndarray, lattice: Lattice, noise: float, watch: Progress | None = None, threads: int | None = None
-) -> np.ndarray:
-    """Return the picture sharpened by a Wiener filter patch by patch, float32, shape kept.
+@dataclass(frozen=True)
+class PhotoStatistics:
+    """What is known of a photo before it is sharpened: its noise lies between ``low`` and ``high``, white at 1.
 
-    ``noise``: its standard deviation on white at 1. The prior is a spectrum falling with 1/f² and the picture's own
-    variance (Wiener 1949; Field 1987). Errors of the kernels count as additional independent noise: KERNEL_ERROR of the
-    picture's contrast. ``threads`` as in `richardson_lucy`. Raises RequestError for a noise that is not positive.
+    Of each channel, the power of the scene falls with spatial frequency to the power in ``falloffs``, and has the
+    variance of the photo times ``strengths``: of slow shades a photo may have more than such a spectrum, or of edges.
     """
-    if not noise > 0:
+
+    low: float
+    high: float
+    falloffs: tuple[float, ...]
+    strengths: tuple[float, ...]
+
+
+def photo_statistics(values: np.ndarray, lattice: Lattice, noise: float | None = None) -> PhotoStatistics:
+    """Return what a photo and its kernels tell of its noise and its spectrum; ``noise`` if that is known.
+
+    The mean spectrum of the photo is fitted by a·|H|²/(f² + CORNER²)^(falloff/2) + σ² (maximum likelihood of
+    exponentially distributed powers, Whittle 1953). Texture and noise look alike where the model's texture is no
+    weaker than the noise at any frequency: σ² is known only to ALIKE of its least power. `estimated_noise` is too
+    large at worst, since texture adds to it. Raises RequestError for a noise that is not positive.
+    """
+    if noise is not None and not noise > 0:
         raise RequestError(
             "the noise is {noise:g}; give the standard deviation of the picture's noise, above 0", noise=noise
         )
+    fits = [_fit_spectrum(values[..., channel], lattice, channel) for channel in range(values.shape[-1])]
+    falloffs, squares, leasts, scales = zip(*fits, strict=True)
+    variances = np.maximum(values.var((0, 1)), TINY).tolist()
+    strengths = tuple(scale / variance for scale, variance in zip(scales, variances, strict=True))
+    if noise is not None:
+        return PhotoStatistics(noise, noise, falloffs, strengths)
+    square, least = float(np.mean(squares)), float(np.mean(leasts))
+    high = max(LEAST_NOISE, min(estimated_noise(values), sqrt(square + ALIKE * least)))
+    # A fit that finds more noise than there can be has a scene of another spectrum, and no lower bound.
+    low = sqrt(max(0.0, square - ALIKE * least)) if square <= high**2 else 0.0
+    return PhotoStatistics(low, high, falloffs, strengths)
+
+
+def _fit_spectrum(plane: np.ndarray, lattice: Lattice, channel: int) -> tuple[float, ...]:
+    """Return the falloff, the square of the noise, the least power of the scene's share, and the scene's variance."""
+    power = _mean_spectrum(plane, max(SPECTRUM_SIDE, 4 * lattice.half))
+    shape = power[1]
+    transfers = (
+        np.abs(np.fft.rfft2(_centre(lattice.kernels[a][b][[channel]], shape)[0])) ** 2
+        for a in {0, len(lattice.row_nodes) // 2, len(lattice.row_nodes) - 1}
+        for b in {0, len(lattice.column_nodes) // 2, len(lattice.column_nodes) - 1}
+    )
+    passed, used = np.mean(list(transfers), axis=0), np.ones(power[0].shape, bool)
+    used[[0, 1, -1], :2] = False  # the mean, and what the window makes of slopes
+    found = power[0][used] + TINY  # a frequency without any power has no logarithm
+    fits = []
+    for falloff in FALLOFFS:
+        shape_of = (passed * _prior(shape, falloff))[used]
+        scale, square = float(np.median(found) / np.median(shape_of)), float(np.quantile(found, 0.02))
+        for _ in range(FIT_ROUNDS):  # multiplicative steps of Févotte, Bertin and Durrieu 2009, eq. 26
+            model = scale * shape_of + square
+            scale *= sqrt(float((found * shape_of / model**2).sum() / (shape_of / model).sum()))
+            square *= sqrt(float((found / model**2).sum() / (1 / model).sum()))
+        model = scale * shape_of + square
+        likelihood = float((np.log(model) + found / model).sum())
+        fits.append((likelihood, falloff, square, scale * float(shape_of.min()), scale))
+    return min(fits)[1:]
+
+
+def _mean_spectrum(plane: np.ndarray, side: int) -> tuple[np.ndarray, tuple[int, int]]:
+    """Return the mean power of blocks that overlap by half, of unit variance for white noise, and their shape.
+
+    P. D. Welch, IEEE Trans. Audio Electroacoust. 15, 1967; Hann's window.
+    """
+    sides = min(side, plane.shape[0]), min(side, plane.shape[1])
+    window = np.outer(*(np.sin(np.pi * (np.arange(n) + 0.5) / n) ** 2 for n in sides))
+    starts = [
+        np.unique(np.linspace(0, count - n, max(1, min(MOST_BLOCKS, 2 * count // n - 1))).astype(int)).tolist()
+        for count, n in zip(plane.shape, sides, strict=True)
+    ]
+    total, blocks = np.zeros((sides[0], sides[1] // 2 + 1)), list(product(*starts))
+    for top, left in blocks:
+        block = plane[top : top + sides[0], left : left + sides[1]]
+        total += np.abs(np.fft.rfft2((block - (block * window).sum() / window.sum()) * window)) ** 2
+    return total / (len(blocks) * np.square(window).sum()), sides
+
+
+@one_blas_thread
+def wiener(
+    values: np.ndarray,
+    lattice: Lattice,
+    noise: float | PhotoStatistics,
+    watch: Progress | None = None,
+    threads: int | None = None,
+    known: np.ndarray | None = None,
+) -> np.ndarray:
+    """Return the picture sharpened by a Wiener filter patch by patch, float32, shape kept.
+
+    ``noise``: its standard deviation on white at 1, or what `photo_statistics` tells. ``known``, (rows, columns): the
+    pixels that these kernels blurred; all by default. ``threads`` as in `richardson_lucy`. Raises RequestError for a
+    noise that is not positive.
+
+    Between the filter for the least noise and that for the most, the one taken at each frequency is the nearest to
+    leaving the picture as it is. The expected error is quadratic in the filter, with its minimum at the true noise's:
+    so whatever the noise between these ends, no frequency is expected to be farther from the scene than before.
+    """
     values, margin = np.asarray(values, np.float32), 3 * lattice.half
-    planes = np.moveaxis(np.pad(values, ((margin, margin), (margin, margin), (0, 0)), mode="symmetric"), -1, 0)
+    about = noise if isinstance(noise, PhotoStatistics) else photo_statistics(values, lattice, noise)
+    around = (margin, margin), (margin, margin)
+    planes = np.moveaxis(np.pad(values, (*around, (0, 0)), mode="symmetric"), -1, 0)
+    told = np.pad(np.ones(values.shape[:2], bool) if known is None else known, around)
     by_row, by_column = (
         hats(nodes, np.arange(n))
         for nodes, n in zip((lattice.row_nodes, lattice.column_nodes), values.shape[:2], strict=True)
@@ -57,8 +157,9 @@ def wiener(
     def sharpen_patch(node: tuple[int, int]) -> tuple[slice, slice, np.ndarray]:
         down, right = by_row[node[0]], by_column[node[1]]
         rows, columns = support(down), support(right)
-        patch = planes[:, rows.start : rows.stop + 2 * margin, columns.start : columns.stop + 2 * margin]
-        found = _wiener_filter(patch, lattice.kernels[node[0]][node[1]], noise)
+        wide = np.s_[rows.start : rows.stop + 2 * margin, columns.start : columns.stop + 2 * margin]
+        guessed = 1 - float(told[wide].mean())
+        found = _wiener_filter(planes[:, *wide], lattice.kernels[node[0]][node[1]], about, guessed)
         inner = found[:, margin : found.shape[1] - margin, margin : found.shape[2] - margin]
         return rows, columns, inner * np.outer(down[rows], right[columns]).astype(np.float32)
 
@@ -71,27 +172,62 @@ def wiener(
     return np.moveaxis(out, 0, -1)
 
 
+def wiener_by_depth(
+    values: np.ndarray,
+    depths: DepthMap,
+    lattice_of: Callable[[int], Lattice],
+    noise: float | None,
+    watch: Progress | None = None,
+) -> np.ndarray:
+    """Return a picture with a map of depths sharpened by the kernels of each depth, as `wiener` does.
+
+    ``lattice_of`` a depth node's number. Each node's filter sees its own pixels alone, beyond which the nearest of them
+    go on, and between two nodes the two results are interpolated as kernels are. Beside jumps in depth
+    (`DepthMap.continued`) pixels have light of both sides, which no kernel tells apart: these stay as they are.
+    """
+    values = np.asarray(values, np.float32)
+    beside, out = depths.continued[..., None], np.zeros_like(values)
+    for number in range(int(depths.place.min()), ceil(depths.place.max()) + 1):
+        share = np.clip(1 - np.abs(depths.place - number), 0, 1)
+        own = (share > 0) & ~depths.continued
+        if own.any():
+            seen, lattice = values[nearest_open(~own)], lattice_of(number)
+            found = wiener(seen, lattice, photo_statistics(seen, lattice, noise), watch, known=own)
+            out += share[..., None] * found
+    return np.where(beside, values, out)
+
+
 def support(weight: np.ndarray) -> slice:
     """Return the range in which a window is not zero."""
     inside = np.flatnonzero(weight)
     return slice(int(inside[0]), int(inside[-1]) + 1) if inside.size else slice(0, 1)
 
 
-def _wiener_filter(patch: np.ndarray, kernels: np.ndarray, noise: float) -> np.ndarray:
-    """Return conj(H)/(|H|² + N/S) of (channels, rows, columns), about the patch's mean."""
+def _wiener_filter(patch: np.ndarray, kernels: np.ndarray, about: PhotoStatistics, guessed: float) -> np.ndarray:
+    """Return conj(H)/(|H|² + N/S) of (channels, rows, columns), about the patch's mean, as `wiener` has it.
+
+    ``guessed``: the share of pixels that are mirrored at a border. What is wrong in them has kinks, whose spectrum
+    falls with 1/f⁴, and counts as noise; so do errors of the kernels, which are in proportion to the scene.
+    """
     import scipy.fft
 
     rows, columns = patch.shape[1:]
     shape = scipy.fft.next_fast_len(rows, real=True), scipy.fft.next_fast_len(columns, real=True)
     transfer = scipy.fft.rfft2(_centre(kernels, shape))
-    mean = patch.mean((1, 2), keepdims=True)
-    variance = np.maximum(patch.var((1, 2), keepdims=True) - noise**2, noise**2)
-    prior = _prior(shape)
-    ratio = (noise**2 + KERNEL_ERROR**2 * variance) / (variance * prior)
+    square = np.abs(transfer) ** 2
+    mean, variance = patch.mean((1, 2), keepdims=True), patch.var((1, 2), keepdims=True)
+    strength = np.array(about.strengths)[:, None, None] * variance + TINY
+    scene = strength * np.stack([_prior(shape, falloff) for falloff in about.falloffs])
+    wrong = KERNEL_ERROR**2 * np.square(kernels).sum((1, 2))[:, None, None]  # of |H|², by Parseval
+    border = BORDER_ERROR * guessed * variance * _prior(shape, KINKS)
+    modulus = np.sqrt(square)
+    weak = modulus / (square + (about.high**2 + border) / scene + wrong)
+    strong = modulus / (square + about.low**2 / scene + TINY)
+    gain = np.clip(1, weak, np.maximum(weak, strong))
     padded = np.zeros((len(patch), *shape), np.float32)
     # The edge fades into the mean: an abrupt edge would ring through the whole patch.
     padded[:, :rows, :columns] = (patch - mean) * _fade((rows, columns), 2 * (kernels.shape[-1] // 2))
-    spectrum = scipy.fft.rfft2(padded) * np.conj(transfer) / (np.abs(transfer) ** 2 + ratio)
+    spectrum = scipy.fft.rfft2(padded) * gain * np.conj(transfer) / np.maximum(modulus, TINY)
     sharp: np.ndarray = scipy.fft.irfft2(spectrum, shape)[:, : patch.shape[1], : patch.shape[2]] + mean
     return sharp
 
@@ -102,12 +238,22 @@ def _fade(shape: tuple[int, int], width: int) -> np.ndarray:
     return np.outer(np.sin(np.pi / 2 * rows) ** 2, np.sin(np.pi / 2 * columns) ** 2).astype(np.float32)
 
 
-def _prior(shape: tuple[int, int]) -> np.ndarray:
-    """Return the power of a picture of unit variance per frequency, falling with 1/f²."""
+def _prior(shape: tuple[int, int], falloff: float) -> np.ndarray:
+    """Return the power of a picture of unit variance per frequency, falling with 1/f to the ``falloff``."""
     square = np.fft.fftfreq(shape[0])[:, None] ** 2 + np.fft.rfftfreq(shape[1]) ** 2
-    power = 1 / (square + CORNER**2)
-    prior: np.ndarray = power / power.mean()
+    power = (square + CORNER**2) ** (-falloff / 2)
+    prior: np.ndarray = power / _plane_mean(power, shape)
     return prior
+
+
+def _plane_mean(half: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
+    """Return the mean over all frequencies of a plane whose real transform has (…, rows, columns // 2 + 1) of them."""
+    twice = np.full(half.shape[-1], 2.0)
+    twice[0] = 1.0
+    if shape[1] % 2 == 0:
+        twice[-1] = 1.0
+    mean: np.ndarray = (half * twice).sum((-2, -1), keepdims=True) / (shape[0] * shape[1])
+    return mean
 
 
 def _centre(kernels: np.ndarray, shape: tuple[int, int]) -> np.ndarray:

@@ -547,6 +547,13 @@ class _Placing:
         return values if self._shade is None else values * self._shade[box.within(self.inside)]
 
 
+def planned_depths(planned: Plan, depth_mm: np.ndarray, shape: tuple[int, ...]) -> DepthMap:
+    """Return the places of a map of depths among a plan's nodes, ``continued`` where a jump mixes the light of two."""
+    halves = _largest_halves(planned)
+    reach = -(-max(halves) // CONTINUED)
+    return map_depths(depth_mm, np.array(planned.vergences), shape, reach, least_fold(halves))
+
+
 def _largest_halves(planned: Plan) -> list[int]:
     """Return the largest half width of kernels at every depth node, pixels: of all channels, from middle to corner."""
     heights, channels = np.linspace(*planned.scene.sensor.corners_mm(), HEIGHTS), range(len(planned.colours))

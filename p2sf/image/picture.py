@@ -8,10 +8,11 @@ from numpy.typing import ArrayLike
 
 from p2sf.arguments import check_arguments, real_array
 from p2sf.errors import RequestError
-from p2sf.image.deblur import photo_noise, wiener
+from p2sf.image.deblur import photo_statistics, wiener, wiener_by_depth
 from p2sf.image.exposure import expose
-from p2sf.image.form import Forming, check_picture, plan_lattice
+from p2sf.image.form import Forming, check_picture, plan_lattice, planned_depths
 from p2sf.image.form import form_image as form
+from p2sf.image.progress import Progress
 from p2sf.image.region import Region, check_region, whole
 from p2sf.scene.planning.plan import Plan
 from p2sf.scene.sensor import Sensor
@@ -108,9 +109,14 @@ def region_of_sensor(sensor: Sensor, region: Sequence[int]) -> Region:
 
 @check_arguments
 def sharpen_image(
-    planned: Plan, photo: ArrayLike, *, noise: float | None = None, threads: int | None = None
+    planned: Plan,
+    photo: ArrayLike,
+    depth_mm: ArrayLike | None = None,
+    *,
+    noise: float | None = None,
+    threads: int | None = None,
 ) -> np.ndarray:
-    """Sharpen a photo of the far end of a scene, by a Wiener filter with the kernel of every place.
+    """Sharpen a photo, by a Wiener filter with the kernel of every place.
 
     Parameters
     ----------
@@ -118,8 +124,11 @@ def sharpen_image(
         The result of `plan` for the lens and the scene.
     photo : array_like
         The photo in linear light, floats with white at 1, shape (rows, columns, channels) as for `form_image`.
+    depth_mm : array_like, optional
+        Depth of every pixel, mm, shape (rows, columns), as for `form_image`; by default the far end of the scene. Each
+        depth has its own kernels; beside edges of depth pixels stay as they are.
     noise : float, optional
-        Standard deviation of its noise; estimated from its quiet parts by default.
+        Standard deviation of its noise; by default between the limits that the photo tells, see `photo_statistics`.
     threads : int, optional
         As for `render`.
 
@@ -134,5 +143,24 @@ def sharpen_image(
         As `form_image` does, and for a noise that is not positive.
     """
     values = check_picture(planned.scene, photo)
-    lattice = plan_lattice(planned, planned.vergences[0])
-    return wiener(values, lattice, photo_noise(values) if noise is None else noise, threads=threads)
+    depths = None if depth_mm is None else real_array("depth_mm", depth_mm)
+    with using_threads(threads):
+        return sharpen_planned(planned, values, depths, noise)
+
+
+def sharpen_planned(
+    planned: Plan,
+    values: np.ndarray,
+    depth_mm: np.ndarray | None,
+    noise: float | None,
+    watch: Progress | None = None,
+) -> np.ndarray:
+    """Return a photo (rows, columns, channels) sharpened by a plan's kernels, at one depth or at those of a map."""
+    if depth_mm is None:
+        lattice = plan_lattice(planned, planned.vergences[0], watch)
+        return wiener(values, lattice, photo_statistics(values, lattice, noise), watch)
+    planned.scene.check_depths(depth_mm)
+    depths = planned_depths(planned, depth_mm, values.shape[:2])
+    return wiener_by_depth(
+        values, depths, lambda number: plan_lattice(planned, planned.vergences[number], watch), noise, watch
+    )

@@ -180,3 +180,11 @@ def test_every_mistake_is_one_sentence(scene, tmp_path, capsys, monkeypatch, arg
     assert main([str(scene) if a == "SCENE" else a for a in arguments]) == 2
     told = capsys.readouterr().err
     assert words in told and told.count("\n") == 1 and "Traceback" not in told
+
+
+def test_a_map_of_depths_is_not_sharpened_by_the_kernels_of_one(scene, tmp_path, capsys):
+    write_photo(tmp_path / "depth.tif", np.full((40, 60), 20000.0, np.float32), "linear", "float")
+    scene.write_text(SCENE + '[depth]\nnear_mm = 20000\nmap = "depth.tif"\nfar_mm = inf\n')
+    arguments = ["image", "double_gauss_28", str(scene), "chart:text", "-o", str(tmp_path / "o.png")]
+    assert main([*arguments, "--deblur", "richardson-lucy"]) == 2 and "wiener" in capsys.readouterr().err
+    assert main([*arguments, "--surround", "black", "--preview"]) == 2 and "--surround" in capsys.readouterr().err

@@ -178,7 +178,7 @@ def test_a_slanted_wall_has_no_seams(focus_mm):
     made = preview_plan(scene.camera(find_lens("double_gauss_28")), scene)
     made = replace(made, counts=(1, 1), vergences=tuple(np.linspace(1 / FAR_MM, 1 / NEAR_MM, 7)))
     wall = np.broadcast_to(1 / np.linspace(1 / NEAR_MM, 1 / FAR_MM, 41), (41, 41))
-    picture = 0.5 + gaussian_filter(np.random.default_rng(4).normal(size=(41, 41, 1)), (1, 1, 0))
+    picture = np.maximum(0.5 + gaussian_filter(np.random.default_rng(4).normal(size=(41, 41, 1)), (1, 1, 0)), 0)
     shares = hats(np.array(made.vergences), 1 / wall.ravel()).reshape(7, 41, 41, 1)
 
     def added(values: np.ndarray) -> np.ndarray:

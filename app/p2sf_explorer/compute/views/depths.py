@@ -13,6 +13,7 @@ from p2sf.io.photo_files import turned_as
 from p2sf.scene.depth_gaps import Gaps, ends_and_gaps
 from p2sf_explorer.compute.views.photos import change_time, frame_box
 
+WITH_DEPTHS = "lens", "sharpened"  # of what can be shown; the others have the PSFs of one distance
 FLAT, SLOPE, STEPS, OWN = "", "slope", "steps", "photo"
 DEPTH_WORDS = {
     FLAT: "one distance",

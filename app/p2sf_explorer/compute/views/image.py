@@ -19,8 +19,9 @@ from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope, slope_fro
 from p2sf.errors import GeometryError, P2SFError, RequestError
 from p2sf.image import Forming, Progress, form_image, plan_lattice
 from p2sf.image.charts import CHARTS
-from p2sf.image.deblur import photo_noise, psnr, wiener, with_one_kernel
+from p2sf.image.deblur import photo_statistics, psnr, wiener, with_one_kernel
 from p2sf.image.lattice import Lattice
+from p2sf.image.picture import sharpen_planned
 from p2sf.image.preview import preview_lattice, preview_plan
 from p2sf.image.similarity import ssim
 from p2sf.io.depth_files import DepthScale
@@ -36,7 +37,15 @@ from p2sf.scene import Channel, Plan, Scene, Sensor, plan
 from p2sf.scene.field_area import field_area
 from p2sf.scene.planning.pricing import computed_counts
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.compute.views.depths import FLAT, ONE_DISTANCE, OWN, DepthChoice, depth_map, occupied_depths
+from p2sf_explorer.compute.views.depths import (
+    FLAT,
+    ONE_DISTANCE,
+    OWN,
+    WITH_DEPTHS,
+    DepthChoice,
+    depth_map,
+    occupied_depths,
+)
 from p2sf_explorer.compute.views.photos import (
     MOST_PIXELS,
     NOISE,
@@ -248,7 +257,7 @@ def question(live: Live) -> ImageRequest:
     photo, optics = state.photo, state.optics
     shape = _known_shape(full_shape, photo.source) if whole and photo.full else None
     what = photo.source, photo.show, photo.pixel_um
-    depths = depth_choice(state) if photo.show == "lens" else ONE_DISTANCE
+    depths = depth_choice(state) if photo.show in WITH_DEPTHS else ONE_DISTANCE
     far = optics.depth_mm if depths.source == FLAT else depths.scale.far_mm
     sensor = shape or (ROWS, COLUMNS)
     return ImageRequest(setup.lens, far, *what, centre, optics.clip, sensor, depths=depths)
@@ -377,8 +386,8 @@ def _sharpen(
     photo = _taken_values(request)
     small = request.shape == small_shape(request.shape)
     used, lattice = _taken_lattice(request, photo.shape[-1], watch, quick, known)
-    noise = photo_noise(photo)
-    sharp = wiener(photo, lattice, noise, part_of(watch, PLANNING, 1.0)) if small or not quick else photo
+    told = photo_statistics(photo, lattice)
+    sharp = wiener(photo, lattice, told, part_of(watch, PLANNING, 1.0)) if small or not quick else photo
     count, product = psf_counts(used)
     why_not = no_plan(used) if quick else None
     measured = ((Message("Coarse"), UNMEASURED[why_not]),) if quick else plan_notes(used) if used.decisions else ()
@@ -392,7 +401,7 @@ def _sharpen(
         seconds=perf_counter() - begun,
         headline=count,
         notes=(
-            (Message("Sharpening"), Message(FILTERED, noise=noise)),
+            (Message("Sharpening"), Message(FILTERED, noise=told.high)),
             *transparency(request.photo, own_shape(request.photo)),
             (Message("PSFs"), product),
             *measured,
@@ -514,9 +523,10 @@ def shown_picture(
     if show == "psfs":
         formed = form_image(plan, values, watch=watch, lattice=lattice)
         return formed, psf_map(lattice, values.shape[:2]), method_notes(plan)
-    blurred = form_image(plan, values, how=Forming(geometry=False), watch=watch, lattice=lattice)
+    blurred = form_image(plan, values, depth_mm, Forming(geometry=False), watch, lattice)
     blurred = blurred + np.random.default_rng(0).normal(0, NOISE, blurred.shape).astype(np.float32)
-    right = wiener(blurred, lattice, NOISE, watch)
+    far = depth_mm is None
+    right = wiener(blurred, lattice, NOISE, watch) if far else sharpen_planned(plan, blurred, depth_mm, NOISE, watch)
     wrong = wiener(blurred, with_one_kernel(lattice, axis_kernel(plan, lattice)), NOISE, watch)
     pictures = {"blurred": blurred, "own": right, "axis": wrong}
     note = Message(

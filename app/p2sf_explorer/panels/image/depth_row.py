@@ -5,7 +5,7 @@ from pathlib import Path
 from PySide6.QtWidgets import QFileDialog, QWidget
 
 from p2sf.io.depth_files import UNITS
-from p2sf_explorer.compute.views.depths import DEPTH_WORDS, FLAT, OWN, SLOPE, STEPS
+from p2sf_explorer.compute.views.depths import DEPTH_WORDS, FLAT, OWN, SLOPE, STEPS, WITH_DEPTHS
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
@@ -14,6 +14,7 @@ from p2sf_explorer.widgets.value_edit import NumberBox
 
 MEANING_WORDS = {"near_white": "white is near", "near_black": "black is near", "mm": "in mm", "m": "in m"}
 TIP = "How far away the parts of the picture are: one distance, nearer towards the bottom, three steps to the right …"
+ONE_ONLY = "What is shown has the PSFs of one distance; show through the lens, or sharpened by its PSFs, to use depths"
 MAPS = "Maps of depths (*.png *.tif *.tiff)"
 MM_PER_M = 1000.0
 ANOTHER = "another"  # among the choices: asks for a file
@@ -41,6 +42,10 @@ class DepthRow:
             self.source.addItem(Path(photo.depths).name, photo.depths)
         select(self.source, photo.depths)
         select(self.meaning, photo.depth_meaning)
+        usable = photo.show in WITH_DEPTHS
+        self.source.setToolTip(tr(TIP) if usable else tr(ONE_ONLY))
+        for control in (self.source, *self.scale):
+            control.setEnabled(usable)
         for box, value in ((self.near, photo.near_mm), (self.far, photo.far_mm)):
             box.blockSignals(True)
             box.setValue(value / MM_PER_M)
