@@ -749,6 +749,8 @@ def _check_shape(surface: Surface, number: int) -> None:
             vertex=passed.vertex,
             slope=passed.per_mm2,
         )
+    if passed and passed.opaque:
+        raise GeometryError("surface {surface} transmits no light; give a share above 0", surface=number)
     focal = surface.ideal_focal_length
     plain = surface.flat and surface.diffraction is None
     if isnan(focal) or (surface.ideal and not (plain and focal)):

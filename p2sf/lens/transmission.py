@@ -2,8 +2,6 @@
 
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from p2sf.conventions import FloatOrArray
 from p2sf.messages import Message
 
@@ -12,7 +10,7 @@ from p2sf.messages import Message
 class Transmission:
     """Share of a ray's energy that a surface transmits, or a mirror reflects, at height h: t₀ + t₂h².
 
-    Negative values count as 0.
+    Where that is negative, it stops rays as a rim does.
 
     Parameters
     ----------
@@ -36,9 +34,13 @@ class Transmission:
         return Message("transmission {vertex:g} + {slope:g} mm⁻²·h²", vertex=self.vertex, slope=self.per_mm2)
 
     def at(self, square: FloatOrArray) -> FloatOrArray:
-        """Return the transmitted share of energy at squared heights, mm²."""
-        share: FloatOrArray = np.maximum(self.vertex + self.per_mm2 * square, 0.0)
-        return share
+        """Return the transmitted share of energy at squared heights, mm²; it is negative where rays are stopped."""
+        return self.vertex + self.per_mm2 * square
+
+    @property
+    def opaque(self) -> bool:
+        """Return whether no ray passes at any height."""
+        return self.vertex <= 0 and self.per_mm2 <= 0
 
     def scaled(self, factor: float) -> "Transmission":
         """Return it scaled from lengths in units of ``factor`` mm to mm."""

@@ -21,7 +21,7 @@ from p2sf.psf.fitted import MOST_NODES as MOST_FITTED
 from p2sf.psf.fitted import NodesOf, psf_of_fit
 from p2sf.psf.gaussian_fit import gaussian_psf
 from p2sf.psf.huygens import MOST_NODES as MOST_RAYS
-from p2sf.psf.huygens import RayPupil, Watch, sum_rays
+from p2sf.psf.huygens import RayPupil, Watch, blur_um2, sum_rays
 from p2sf.psf.prediction import CAUTION, EDGE_ERROR, SAFETY, TRACED_ERROR, predicted_error, seidel_sigma
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import (
@@ -411,7 +411,19 @@ def _by_fit(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
     if found is None:
         found = fit(asked.lens, asked.source, asked.numbers, residual_waves=residual_for(asked.options.min_r2))
     wavelength, quality = asked.source.wavelength_um, asked.options.quality
-    return psf_of_fit(found, wavelength, asked.window, quality, started, _nodes_within_rims(asked))
+    psf = psf_of_fit(found, wavelength, asked.window, quality, started, _nodes_within_rims(asked))
+    return psf.with_fields(energy=partial(_share_of_rays, psf, asked))
+
+
+def _share_of_rays(psf: Psf, asked: PsfRequest) -> float | None:
+    """Return the light in the window of a fit as a share of that of exact rays, whose map it follows only roughly.
+
+    None where samples do not resolve it.
+    """
+    if psf.energy is None or psf.sum_over_peak is None:
+        return None
+    all_light = blur_um2(RayPupil(asked.lens, asked.source, asked.options.clip))
+    return None if all_light is None else float(psf.sum_over_peak) * psf.pixel_um**2 / all_light
 
 
 def _by_traced_rays(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:

@@ -5,7 +5,7 @@ Samples farther apart than λ/(4 NA) miss the rings between them and do not repr
 """
 
 from collections.abc import Callable
-from math import ceil
+from math import ceil, inf
 
 import numpy as np
 
@@ -13,12 +13,15 @@ from p2sf.errors import SamplingError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
-from p2sf.psf.methods import AUTO, REFERENCE, USUAL, PsfOptions, method_of, render, whole_pixel_um
+from p2sf.psf.huygens import FRINGES_OF_SPHERES
+from p2sf.psf.methods import AUTO, REFERENCE, SPHERICAL, USUAL, PsfOptions, method_of, render, whole_pixel_um
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_samples
 from p2sf.pupil.binning import bin_samples
+from p2sf.raytrace.exit_sphere import exit_sphere
 from p2sf.raytrace.field_geometry import cone
-from p2sf.raytrace.pencil import rays_through
+from p2sf.raytrace.fit import level_rays, levels_for
+from p2sf.raytrace.pencil import pencil, rays_through
 from p2sf.raytrace.vignetting import pupil_nodes
 
 LARGEST = 2048  # fine samples a side: beyond, sums take minutes
@@ -33,6 +36,16 @@ def critical_pixel_um(wavelength_um: float | np.ndarray, na: float | np.ndarray)
     """
     critical: np.ndarray = np.asarray(wavelength_um) / (4 * np.asarray(na))
     return critical
+
+
+def critical_pixel_of_spheres(lens: Lens, source: Source) -> float:
+    """Return the same for spherical waves, whose fringes are fine near the pupil however slow the lens; inf of none."""
+    sphere = exit_sphere(lens, source)
+    if sphere is None:
+        return inf
+    xi, eta, _ = level_rays(levels_for(lens)[0])
+    rays = sphere.seen_from(pencil(lens, source, xi, eta).arrived)[0]
+    return 1 / (4 * FRINGES_OF_SPHERES * float(np.hypot(rays.fx, rays.fy).max()))
 
 
 def samples_across(pixels: int, pixel_um: float, finest_um: float, fewest: float = 1.0) -> int:
@@ -128,11 +141,14 @@ def render_integrated(
     if derived:  # fitted to what pixels see
         return derived(render_integrated(lens, source, REFERENCE, pixels, pixel_um, options, wanted))
     own = cone(lens, source)
+    finest = float(critical_pixel_um(source.wavelength_um, max(own.na_x, own.na_y)))
+    if method == SPHERICAL.name:
+        finest = min(finest, critical_pixel_of_spheres(lens, source))
     psf = integrate(
         lambda count, pitch: render(lens, source, method, count, pitch, options),
         pixels,
         pixel_um or whole_pixel_um(lens, source, pixels, method),
-        float(critical_pixel_um(source.wavelength_um, max(own.na_x, own.na_y))),
+        finest,
         wanted,
     )
     return psf if psf.energy is not None else psf.with_fields(energy=light_of_rays(lens, source, psf, options.clip))

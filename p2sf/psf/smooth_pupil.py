@@ -23,7 +23,9 @@ from p2sf.raytrace.seen_mask import mask_seen
 
 PROBE = 12, 36
 COARSE = PROBE, (20, 64)  # radii and directions of the pencils used for interpolation
-CLOSE = 2e-4  # waves at the rim, where the error of interpolation is largest: 1 − R² below 1e-6
+# Waves at the rim, where the error of interpolation is largest: 1 − R² below 1e-6. One of the amplitude acts as a phase
+# of 1/2π of it.
+CLOSE = 2e-4
 STEP = 1e-4  # of the pupil radius and of a radian, for differences: errors of 1e-8, of round-off 1e-11
 
 
@@ -114,24 +116,6 @@ def interpolated_waves(
     return RayWaves(waves_from(waves, sphere, *length), counts, 0, rays.phase.size)
 
 
-def smooth_blur_um2(lens: Lens, source: Source, sphere: ExitSphere | None = None) -> float | None:
-    """Return ∫|field|²dx over the plane in µm² at unit unaberrated peak, by Parseval; None as `interpolated_waves`.
-
-    The energy of unit area spreads over |∂f/∂(ξ, η)| = |∂f/∂(ρ, θ)|/ρ.
-    """
-    found = _smooth(lens, source, 0.0, sphere)
-    if found is None:
-        return None
-    coarse, values = found
-    slopes = _polar_slopes(lens.pupil_domain, values, coarse, *disc_axes(*coarse))
-    (rx, ry), (ax, ay) = (part.reshape(2, -1) for part in slopes)
-    nodes = lens.pupil_domain.nodes(coarse)
-    square = nodes.xi**2 + nodes.eta**2
-    area = np.abs(rx * ay - ry * ax) / np.sqrt(square * (1 - square))
-    field = values[3]
-    return float(nodes.weight @ (field**2 / area) / (np.pi * (nodes.weight @ field) ** 2))
-
-
 def _smooth(
     lens: Lens, source: Source, reach_um: float, sphere: ExitSphere | None = None
 ) -> tuple[Counts, np.ndarray] | None:
@@ -150,7 +134,8 @@ def _smooth(
         values = np.stack([seen.phase, seen.fx, seen.fy, rays.amplitude, *length])
         inside, rim = _inside_and_rim(values, domain, coarse)
         missed = np.abs(interpolate_pupil(domain, inside, coarse, np.ones(1), rim_angles(coarse)) - rim).max(1)
-        if missed[0] + (missed[1] + missed[2]) * max(_farthest_um(rays), reach_um) <= CLOSE:
+        uneven = missed[3] / (2 * np.pi * np.abs(rays.amplitude).mean())
+        if missed[0] + uneven + (missed[1] + missed[2]) * max(_farthest_um(rays), reach_um) <= CLOSE:
             return coarse, inside
     return None
 

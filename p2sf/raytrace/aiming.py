@@ -359,7 +359,7 @@ def _interpolate_rays(beam: Beam, share_x: np.ndarray, share_y: np.ndarray) -> B
     out = Beam(place, ray, beam.wavelength_um)
     out.path = interpolate(*beam.path)
     if isinstance(beam.transmission, np.ndarray):
-        out.transmission = interpolate(*beam.transmission)
+        out.transmission, out.dimmed = interpolate(*beam.transmission), beam.dimmed
     if beam.status.any():
         for status, surface in zip(beam.status, beam.failed_surface, strict=True):
             fresh = (out.status == Status.PASSED) & (status != Status.PASSED)

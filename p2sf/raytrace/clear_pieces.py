@@ -25,7 +25,7 @@ from p2sf.pupil.quadrature import gauss_legendre
 from p2sf.raytrace.aiming import pupil_rays, start
 from p2sf.raytrace.clear_radius import Clearance, clear_radius
 from p2sf.raytrace.pencil import hexapolar
-from p2sf.raytrace.surface import Status, circle_room, ended_at
+from p2sf.raytrace.surface import Status, circle_room, ended_at, stop_in_the_dark
 from p2sf.raytrace.trace import lens_rims, run
 
 SEARCH_RINGS = 24
@@ -73,6 +73,7 @@ class ClearRegion:
                 shaded[number] = circle_room(beam, surface.inner_radius, surface.rim)
 
         run(without_holes(self.lens), beam, rays.index, rims, visit=visit)
+        stop_in_the_dark(beam)
         passed, label = beam.status == Status.PASSED, ended_at(beam.status, beam.failed_surface)
         room = np.asarray(beam.clearance)
         for number, inside in shaded.items():

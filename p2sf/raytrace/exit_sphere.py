@@ -19,7 +19,6 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source
 from p2sf.raytrace.field_geometry import closest, pupil_about
-from p2sf.raytrace.fit import fit_rays, level_rays, levels_for
 from p2sf.raytrace.pencil import Rays, pencil
 
 BESIDE = 0.02  # of the pupil's radius, of the rays whose focus is that of the chief ray
@@ -106,11 +105,3 @@ def exit_sphere(lens: Lens, source: Source) -> ExitSphere | None:
     radius = distance * bend - behind
     waves_per_um = float(beside.index) / source.wavelength_um
     return ExitSphere(distance, bend / radius if radius else 0.0, (kx, ky, kz), waves_per_um)
-
-
-def wider_by(lens: Lens, source: Source, sphere: ExitSphere) -> float:
-    """Return by what factor ∫|field|²dx of spherical waves is that of plane waves, from a fit to the rays of each."""
-    level = levels_for(lens)[0]
-    rays = pencil(lens, source, *level_rays(level)[:2])
-    plane, own = (fit_rays(some, level, level.rays).blur_um2 for some in (rays, sphere.seen_from(rays)[0]))
-    return own / plane

@@ -112,8 +112,8 @@ class FittedPencil:
     ``amplitude`` belongs to `Level.amplitude`, the others to `Level.basis`. ``residual_waves`` is the RMS error of the
     phase where the rays land, ``map_residual`` that of (fx, fy) in cycles per µm, ``amplitude_residual`` that of the
     amplitude over its mean; ``rays`` counts all that were traced; ``blur_um2`` is ∫|field|²dx at unit unaberrated peak
-    of the clear disc. ``amplitude`` excludes the ``mask``, which is given in the pupil coordinates of the source and
-    whose phase scales with ``wavelength_um``.
+    of the clear disc, NaN where its map folds. ``amplitude`` excludes the ``mask``, which is given in the
+    pupil coordinates of the source and whose phase scales with ``wavelength_um``.
     """
 
     level: Level
@@ -362,7 +362,8 @@ def fit_rays(rays: Rays, level: Level, traced: int, steep: Steepness | None = No
     if level.weighted:
         share = rays.amplitude[: weight.size] / float(weight @ rays.amplitude[: weight.size])
     # Parseval: ∫|field|²dx is the area mean of (relative weight)²/|∂(fx, fy)/∂(ξ, η)| over π.
-    blur = float(weight @ (share * share / np.abs(determinant(found.fx, found.fy, *_slope_basis(level)))) / np.pi)
+    area = determinant(found.fx, found.fy, *_slope_basis(level))
+    blur = float(weight @ (share * share / np.abs(area)) / np.pi) if area.min() * area.max() > 0 else np.nan
     steep = with_map(steep or steepness(rays, xi, eta), *_map_at(level, found, rays))
     made = level, found.phase, found.fx, found.fy, float(found.residual_waves), steep, blur, traced
     return FittedPencil(*made, float(found.map_residual), found.amplitude, float(found.amplitude_residual))

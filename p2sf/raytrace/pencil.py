@@ -18,7 +18,7 @@ from p2sf.pupil.domain import ClearNodes
 from p2sf.raytrace.aiming import AIM_ERROR, PupilRays, Sources, arriving, entrance, pupil_rays, start
 from p2sf.raytrace.chief_ray import check_chief_ray, chief_ray_error
 from p2sf.raytrace.field_geometry import exit_pupil, tangent_axes
-from p2sf.raytrace.surface import Beam, Status, to_plane
+from p2sf.raytrace.surface import Beam, Status, stop_in_the_dark, to_plane
 from p2sf.raytrace.trace import Trace, lens_rims, run, status_message, trace
 
 __all__ = [
@@ -330,6 +330,8 @@ def _relative_to_chief(
     wavelength_um: FloatOrArray,
 ) -> Rays:
     """Return a beam at the sensor as differences from its last ray, the chief ray."""
+    beam.exempt = 1
+    stop_in_the_dark(beam)
     if beam.status.any():
         _blank(beam, lens)
     chief_x, chief_y = beam.x[..., -1:].copy(), beam.y[..., -1:].copy()

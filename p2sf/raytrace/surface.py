@@ -19,6 +19,7 @@ from p2sf.lens.lens import Surface
 from p2sf.lens.placement import Motion
 from p2sf.lens.rim import Rim
 from p2sf.lens.shapes import WAVES_MM
+from p2sf.lens.transmission import Transmission
 
 NEWTON_STEPS = 40
 # A root is found when the sag differs from the ray's height by no more than the rounding of their sum.
@@ -36,6 +37,7 @@ class Status(IntEnum):
     REFUSED = 4
     UNAIMED = 5
     EVANESCENT = 6
+    OPAQUE = 8
     CLIPPED_BESIDE = 7  # on the left or right of a rectangle: apart, since the clear part has a corner where they meet
 
 
@@ -43,8 +45,10 @@ AT_RIM = Status.CLIPPED, Status.CLIPPED_BESIDE
 
 
 def ended_at(status: np.ndarray, failed_surface: np.ndarray) -> np.ndarray:
-    """Return a number that tells apart what ends rays: the surface, and a side of a rectangle from what it joins."""
-    number: np.ndarray = failed_surface + BESIDE * (status == Status.CLIPPED_BESIDE)
+    """Return a number that tells apart what ends rays: the surface, and of it a side of a rectangle and its coating."""
+    number: np.ndarray = (
+        failed_surface + BESIDE * (status == Status.CLIPPED_BESIDE) + 2 * BESIDE * (status == Status.OPAQUE)
+    )
     return number
 
 
@@ -56,7 +60,8 @@ class Beam:
 
     ``place`` and ``ray``: (3, …, ray), with x, y, z and p, q, r as views of their rows, so that an operation on all
     components is one call. The last ``exempt`` rays pass every rim. ``wavelength_um`` broadcasts against (…, ray).
-    ``transmission``: the share of energy that surfaces have passed. ``clearance``: the least room that rays have had
+    ``transmission``: the share of energy that surfaces have passed, below 0 where one passes none, and ``dimmed`` the
+    last surface that may pass none. ``clearance``: the least room that rays have had
     inside rims, as `rooms` has it, below 0 where one stopped them.
     ``source``: the point (X, Y, Z, W) at (X, Y, Z)/W in the axes of the lens, mm, where all rays come from, if known.
     """
@@ -67,6 +72,7 @@ class Beam:
         self.p, self.q, self.r = ray
         self.path = np.zeros(place.shape[1:])
         self.transmission: FloatOrArray = 1.0
+        self.dimmed = 0
         self.status = np.zeros(place.shape[1:], np.int8)
         self.failed_surface = np.zeros(place.shape[1:], np.int16)
         self.exempt = 0
@@ -366,6 +372,22 @@ def clip(beam: Beam, radius: float, rim: Rim | None, number: int) -> None:
 def clip_inside(beam: Beam, radius: float, rim: Rim | None, number: int) -> None:
     """Stop every ray that lands in a hole or a shadow."""
     _keep_inside(beam, -circle_room(beam, radius, rim), Status.CLIPPED, number)
+
+
+def transmit(beam: Beam, transmission: Transmission, number: int) -> None:
+    """Take from every ray what a surface does not transmit; below 0 where one has transmitted nothing."""
+    share = transmission.at(beam.x * beam.x + beam.y * beam.y)
+    beam.transmission = np.minimum(share, share * beam.transmission)
+    if transmission.per_mm2 < 0:
+        beam.dimmed = number
+
+
+def stop_in_the_dark(beam: Beam) -> None:
+    """Stop every ray at the sensor that a surface has not transmitted, as a rim does."""
+    if beam.dimmed:
+        room = np.asarray(beam.transmission)
+        _keep_inside(beam, room, Status.OPAQUE, beam.dimmed)
+        beam.transmission = np.maximum(room, 0.0)
 
 
 def rooms(beam: Beam, radius: float, rim: Rim | None) -> tuple[tuple[Status, np.ndarray], ...]:

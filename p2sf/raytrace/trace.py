@@ -13,7 +13,7 @@ from p2sf.lens.lens import Lens, absorptions, indices
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import RIM_TIE, default_stop, rim_radii, stop_rim
 from p2sf.raytrace.ideal import object_point, refract_ideal
-from p2sf.raytrace.surface import Beam, Status, clip, clip_inside, diffract, meet, move, refract
+from p2sf.raytrace.surface import Beam, Status, clip, clip_inside, diffract, meet, move, refract, transmit
 
 Index: TypeAlias = np.ndarray | list[float]  # per medium, object space first; floats for one wavelength
 
@@ -25,6 +25,7 @@ _OUTCOMES = {
     Status.CLIPPED_BESIDE: "is stopped by the rim of surface {surface}",
     Status.REFUSED: "meets the asphere on surface {surface} where no reliable intersection was found",
     Status.EVANESCENT: "has no diffracted direction behind surface {surface}, whose phase is too steep there",
+    Status.OPAQUE: "meets surface {surface} where that transmits no light",
     Status.UNAIMED: "could not be aimed at its place in the stop, surface {surface}",
 }
 
@@ -199,7 +200,7 @@ def _cross(
         if surface.inner_radius:
             clip_inside(beam, surface.inner_radius, surface.rim, number)
     if surface.transmission is not None:
-        beam.transmission = beam.transmission * surface.transmission.at(beam.x * beam.x + beam.y * beam.y)
+        transmit(beam, surface.transmission, number)
     if surface.ideal:
         refract_ideal(beam, surface.ideal_focal_length, before, after, object_point(lens, beam, index, number))
     elif surface.diffraction is not None:

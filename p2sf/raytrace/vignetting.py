@@ -33,8 +33,8 @@ from p2sf.raytrace.clear_pieces import (
     without_holes,
 )
 from p2sf.raytrace.clear_radius import Clearance, clear_radius
-from p2sf.raytrace.fit import FittedPencil, fit
-from p2sf.raytrace.pencil import hexapolar, pencil, radiometric
+from p2sf.raytrace.fit import FittedPencil
+from p2sf.raytrace.pencil import hexapolar, pencil
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.raytrace.surface import BESIDE, Status, ended_at, rooms
 from p2sf.raytrace.trace import lens_rims, run
@@ -265,41 +265,21 @@ def _edge(
     return clear_radius(clearance, outer, guess)
 
 
-def pencil_blur(
-    lens: Lens, source: Source, clip: bool = False, whole: bool = True, pupil: FittedPencil | None = None
-) -> float | None:
-    """Return ∫|field|²dx in µm² at unit unaberrated peak, by Parseval from a fit; None where rays are lost.
-
-    ``clip``, ``whole``: as `pupil_nodes` has them. ``pupil``: the fit, for the `radiometric` amplitude. What is
-    integrated is as smooth as the fit, however steep the phase, so BLUR_NODES do.
-    """
-    try:
-        found = pupil or fit(lens, source)
-    except GeometryError:
-        return None
-    nodes = pupil_nodes(lens, source, BLUR_NODES, clip, whole)
-    plain = pupil is None and isinstance(nodes.amplitude, float)
-    if nodes.share == 1.0 and plain:
-        return found.blur_um2
-    return _blur(found, nodes, np.abs(found.jacobian(nodes.xi, nodes.eta)), pupil is not None)
-
-
-def masked_blur(found: FittedPencil, nodes_of: Callable[[tuple[int, int]], ClearNodes] | None = None) -> float:
-    """Return ∫|field|²dx of a fit in µm² at unit unaberrated peak of its own pupil, by Parseval.
+def masked_blur(found: FittedPencil, nodes_of: Callable[[tuple[int, int]], ClearNodes] | None = None) -> float | None:
+    """Return ∫|field|²dx of a fit in µm² at unit unaberrated peak of its own pupil, by Parseval; None where it folds.
 
     ``nodes_of``: the nodes of (radial, angular) counts over that pupil where rims end it.
     """
     if nodes_of is not None:
         nodes = nodes_of(BLUR_NODES)
-        return _blur(found, nodes, np.abs(found.jacobian(nodes.xi, nodes.eta)))
-    if found.mask.clear and np.isfinite(found.blur_um2):  # not known of a fit that was looked up
+        area = found.jacobian(nodes.xi, nodes.eta)
+    elif found.mask.clear and np.isfinite(found.blur_um2):  # not known of a fit that was looked up
         return found.blur_um2
-    there = at_nodes(found.level.basis, BLUR_NODES, found.mask)
-    return _blur(found, there.nodes, np.abs(determinant(found.fx, found.fy, *there.map_slopes)))
-
-
-def _blur(found: FittedPencil, nodes: ClearNodes, area: np.ndarray, radiometrically: bool = False) -> float:
-    light = found.amplitude_at(nodes.xi, nodes.eta)
-    field = nodes.amplitude * (radiometric(light, area) if radiometrically else light)
+    else:
+        there = at_nodes(found.level.basis, BLUR_NODES, found.mask)
+        nodes, area = there.nodes, determinant(found.fx, found.fy, *there.map_slopes)
+    if not area.min() * area.max() > 0:
+        return None
+    field = nodes.amplitude * found.amplitude_at(nodes.xi, nodes.eta)
     field = field / ((nodes.weight * field).sum() / nodes.weight.sum())
-    return float(nodes.weight @ (field * field / area) / (np.pi * nodes.share))
+    return float(nodes.weight @ (field * field / np.abs(area)) / (np.pi * nodes.share))

@@ -1614,6 +1614,7 @@
 <message><source>is stopped by the rim of surface {surface}</source><translation>wird vom Rand der Fläche {surface} aufgehalten</translation></message>
 <message><source>is tilted or decentred</source><translation>ist gekippt oder dezentriert</translation></message>
 <message><source>is tilted or decentred otherwise than by XDE to CDE</source><translation>ist anders als durch XDE bis CDE gekippt oder dezentriert</translation></message>
+<message><source>meets surface {surface} where that transmits no light</source><translation>trifft Fläche {surface} dort, wo sie kein Licht durchlässt</translation></message>
 <message><source>is totally reflected at surface {surface}</source><translation>wird an Fläche {surface} total reflektiert</translation></message>
 <message><source>its PSFs, as a map</source><translation>seine PSFs als Karte</translation></message>
 <message><source>its diffraction</source><translation>ihre Beugung</translation></message>
