@@ -78,8 +78,6 @@ def first_order(setup: Setup) -> dict[str, Any]:
     """
     along_y, along_x = (in_meridian(setup.lens, azimuth) for azimuth in (0.0, 90.0))
     facts = {
-        "stop_surface": int(setup.stop.surface),
-        "stop_semi_diameter": float(setup.stop.semi_diameter),
         **_paraxial(along_y, setup),
         **({"misalignment": [str(words) for words in moved]} if (moved := misalignments(setup.lens)) else {}),
     }
@@ -93,6 +91,8 @@ def _paraxial(lens: Lens, setup: Setup) -> dict[str, Any]:
     return {
         "abcd": abcd(lens, wavelength).ravel().tolist(),
         **{name: float(value) for name, value in asdict(cardinal_points(lens, wavelength)).items()},
+        "stop_surface": int(setup.stop.surface),
+        "stop_semi_diameter": float(setup.stop.semi_diameter),
         "entrance_pupil": {"from_first": float(ends.entrance_from_first), "diameter": float(ends.entrance_diameter)},
         "exit_pupil": {"from_last": float(ends.exit_from_last), "diameter": float(ends.exit_diameter)},
         "numerical_aperture": float(numerical_aperture(lens, depth, wavelength, setup.stop)),
