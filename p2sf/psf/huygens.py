@@ -9,8 +9,9 @@ See handbook 5.5.
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
-from math import sqrt
+from math import inf, sqrt
 from time import perf_counter
+from typing import Any
 
 import numpy as np
 
@@ -19,9 +20,10 @@ from p2sf.errors import Cancelled, GeometryError, SamplingError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
+from p2sf.psf.compare import r_squared
 from p2sf.psf.peak import peak_on_demand
 from p2sf.psf.picture import Origin, Window, psf_from_intensity, resolved
-from p2sf.psf.prediction import EDGE_ERROR
+from p2sf.psf.prediction import CAUTION, EDGE_ERROR, TRACED_ERROR
 from p2sf.psf.result import Psf
 from p2sf.psf.smooth_pupil import (
     PROBE,
@@ -33,7 +35,7 @@ from p2sf.psf.smooth_pupil import (
     interpolated_waves,
 )
 from p2sf.psf.sums.plane_waves import Counts, Waves, counts_for, disc_words, pupil_amplitude, window_reach_um
-from p2sf.psf.sums.spherical_waves import waves_from
+from p2sf.psf.sums.spherical_waves import SphericalWaves, waves_from
 from p2sf.pupil.domain import ClearNodes
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from p2sf.raytrace.exit_sphere import ExitSphere
@@ -49,6 +51,7 @@ STEP = 1e-4  # of the pupil's radius, for differences: errors of 1e-8, of aiming
 BLOCK = 8192  # rays traced at a time: few enough for a second-level cache and to check for cancellation every few ms
 GROWTH = 1.3
 MOST_NODES = 2**22
+NODE_SECONDS, LAST_PASS = 4e-6, 0.4  # of a ray on one core, and the share of all rays that are in the last pass
 FRINGES_OF_SPHERES = 1.05  # finer than those of rays are beyond a focus; so near their end contrast is next to none
 MOST_FOR_PEAK = 2**17  # for the peak alone, which is otherwise sought only in the window
 
@@ -77,7 +80,7 @@ class RayPupil:
 
     def first_counts(self, window: Window) -> Counts:
         """Return the node counts to begin with."""
-        return first_counts(self.lens, self.source, window_reach_um(*window), self.clip)
+        return first_counts(self.lens, self.source, window_reach_um(*window), self.clip, MOST_NODES, self.sphere)
 
     def nodes(self, counts: Counts) -> ClearNodes:
         """Return nodes up to where rays end: at the pupil's rim, at clear apertures, or where they miss a surface."""
@@ -122,23 +125,42 @@ def sum_rays(
     started, watch = perf_counter(), watch or Watch()
     pixel_um, lens, source = window[1], pupil.lens, pupil.source
     if rtol is None:
-        found = one_pass(pupil, window, watch)
-        axis = centred_axis(*window)
-        intensity = found.waves.intensity(axis, axis, np.float32)
-        sampling = sampling_of(pupil, found, Message("one pass in float32"))
-        error = EDGE_ERROR if pupil.clip or not all_reach(lens, source) else SETTLED_TOLERANCE**2
-        made = Origin(pupil.method, 0, _nodes(found.counts), sampling, started, None, error)
+        found, axis = one_pass(pupil, window, watch), centred_axis(*window)
+        dtype = np.float64 if pupil.sphere and quality == "settled" else np.float32
+        intensity = found.waves.intensity(axis, axis, dtype)
+        single, double = Message("one pass in float32"), Message("one pass in float64")
+        sampling = sampling_of(pupil, found, double if dtype == np.float64 else single)
+        whole = TRACED_ERROR if pupil.sphere else SETTLED_TOLERANCE**2
+        error = EDGE_ERROR if pupil.clip or not all_reach(lens, source) else whole
+        own = SETTLED_TOLERANCE if dtype == np.float64 else None
+        made = Origin(pupil.method, 0, found.traced, sampling, started, own, error)
     else:
         found, intensity, reached, rays = _settle(pupil, window, rtol, watch)
         short = Message("not converged: agrees to {reached:.1e} only", reached=reached)
         sampling = sampling_of(pupil, found, None if reached <= rtol else short)
         made = Origin(pupil.method, 0, rays, sampling, started, reached, reached**2)
+    made = _with_waves_error(made, found.waves, intensity, centred_axis(*window))
     blur = None
     finest = found.waves.spread / (1 if pupil.sphere is None else FRINGES_OF_SPHERES)
     if rtol is not None and resolved(finest, pixel_um):
         blur = blur_um2(pupil)
     peak = peak_on_demand(intensity, pixel_um, found.waves, partial(waves_reaching, pupil), quality)
     return psf_from_intensity(intensity, pixel_um, source.wavelength_um, blur, made, peak)
+
+
+def _with_waves_error(made: Origin, waves: Waves, intensity: np.ndarray, axis: np.ndarray) -> Origin:
+    """Return the origin of a picture of spherical waves with what their sum left out, and what scalar waves leave open.
+
+    Kirchhoff's integral with and without its obliquity, the cosine of the angle to the chief ray, differ by more than
+    other errors where the window is as wide as the pupil is far.
+    """
+    if not isinstance(waves, SphericalWaves) or made.predicted_error is None:
+        return made
+    missed = waves.skeleton(axis, axis, intensity.dtype).missed or 0.0
+    other = intensity * waves.obliquity(axis, axis) ** 2
+    oblique = max(0.0, *(1 - r_squared(*pair) for pair in ((intensity, other), (other, intensity))))
+    error = None if made.error is None else float(np.hypot(made.error, missed + np.sqrt(oblique) * (oblique > CAUTION)))
+    return replace(made, error=error, predicted_error=made.predicted_error + missed**2 + oblique)
 
 
 def blur_um2(pupil: RayPupil) -> float | None:
@@ -167,7 +189,7 @@ def blur_um2(pupil: RayPupil) -> float | None:
 def waves_reaching(pupil: RayPupil, reach_um: float) -> Waves | None:
     """Return the plane waves of rays that carry the phase up to a distance from the chief ray; None of too many."""
     try:
-        counts = first_counts(pupil.lens, pupil.source, reach_um, pupil.clip)
+        counts = first_counts(pupil.lens, pupil.source, reach_um, pupil.clip, MOST_NODES, pupil.sphere)
     except SamplingError:
         return None
     if _nodes(counts) > MOST_FOR_PEAK:
@@ -180,35 +202,47 @@ def waves_reaching(pupil: RayPupil, reach_um: float) -> Waves | None:
 
 
 def one_pass(pupil: RayPupil, window: Window, watch: "Watch | None" = None) -> RayWaves:
-    """Return the waves of as many rays as the blur and the window need; `Cancelled` where the watch says so.
+    """Return the waves of as many rays as the blur and the window need; `Cancelled` where the watch says so."""
+    return waves_through(pupil, pupil.first_counts(window), window_reach_um(*window), watch)
 
-    Spherical ones are interpolated where the pupil is smooth, as those of `traced` are.
-    """
-    counts, reach = pupil.first_counts(window), window_reach_um(*window)
+
+def waves_through(pupil: RayPupil, counts: Counts, reach_um: float, watch: "Watch | None" = None) -> RayWaves:
+    """Return the waves of rays through nodes; spherical ones are interpolated where the pupil is smooth."""
     smooth = None
     if pupil.sphere and pupil.whole:
-        smooth = interpolated_waves(pupil.lens, pupil.source, counts, reach, pupil.sphere)
-    return smooth or ray_waves(pupil, counts, reach, watch)
+        smooth = interpolated_waves(pupil.lens, pupil.source, counts, reach_um, pupil.sphere)
+    found = smooth or ray_waves(pupil, counts, reach_um, watch)
+    if watch and isinstance(found.waves, SphericalWaves):
+        return replace(found, waves=replace(found.waves, **watch.limits))
+    return found
 
 
 def _settle(pupil: RayPupil, window: Window, rtol: float, watch: "Watch") -> tuple[RayWaves, np.ndarray, float, int]:
     """Return (plane waves, their intensity, agreement, rays traced) once two successive node counts agree."""
     axis, reach = centred_axis(*window), window_reach_um(*window)
-    counts = pupil.first_counts(window)
+    counts = _affordable(pupil.first_counts(window), watch.most)
     watch.expect(_nodes(counts) + _nodes(_raise_counts(counts)))
-    before = ray_waves(pupil, counts, reach, watch).waves.intensity(axis, axis)
+    before = waves_through(pupil, counts, reach, watch).waves.intensity(axis, axis)
     rays = _nodes(counts)
     while True:
         counts = _raise_counts(counts)
-        found = ray_waves(pupil, counts, reach, watch)
+        found = waves_through(pupil, counts, reach, watch)
         after = found.waves.intensity(axis, axis)
         rays += _nodes(counts)
         reached = float(np.linalg.norm(after - before) / np.linalg.norm(after))
-        if reached <= rtol or _nodes(_raise_counts(counts)) > MOST_NODES:
+        if reached <= rtol or _nodes(_raise_counts(counts)) > watch.most:
             watch.finish()
             return found, after, reached, rays
         before = after
         watch.expect(_nodes(_raise_counts(counts)))
+
+
+def _affordable(counts: Counts, most: int) -> Counts:
+    """Return node counts of which those to compare with are not more than ``most``."""
+    least = 2, 4
+    while _nodes(_raise_counts(counts)) > most and counts > least:
+        counts = 2 * max(1, round(counts[0] / GROWTH / 2)), 2 * max(2, round(counts[1] / GROWTH / 2))
+    return counts
 
 
 def _raise_counts(counts: Counts) -> Counts:
@@ -333,14 +367,22 @@ def sampling_of(pupil: RayPupil, found: RayWaves, convergence: Message | None) -
 
 
 class Watch:
-    """Reports progress and ends the work if the caller cancels it."""
+    """Reports progress and ends the work if the caller cancels it.
+
+    ``most_seconds``: estimated ones of a sum on one core, which then takes at most ``most`` nodes in its last pass.
+    ``allowed``: relative error of the field of spherical waves that may be left.
+    """
 
     def __init__(
         self,
         progress: Callable[[float], None] | None = None,
         cancelled: Callable[[], bool] | None = None,
+        most_seconds: float = inf,
+        allowed: float = 0.0,
     ) -> None:
         self.progress, self.cancelled = progress, cancelled
+        self.limits: dict[str, Any] = {"watch": self.look, "most_seconds": most_seconds, "allowed": allowed}
+        self.most = int(min(MOST_NODES, LAST_PASS * most_seconds / NODE_SECONDS))
         self.finished, self.expected = 0, 0
 
     def expect(self, nodes: int) -> None:
@@ -350,10 +392,14 @@ class Watch:
     def advance(self, nodes: int) -> None:
         """Add work done; raise Cancelled if the caller has cancelled it."""
         self.finished += nodes
-        if self.cancelled and self.cancelled():
-            raise Cancelled("the reference was cancelled before it was done")
+        self.look()
         if self.progress and self.expected:
             self.progress(min(self.finished / self.expected, 0.99))
+
+    def look(self) -> None:
+        """Raise Cancelled if the caller has cancelled the work."""
+        if self.cancelled and self.cancelled():
+            raise Cancelled("the reference was cancelled before it was done")
 
     def finish(self) -> None:
         """Report that all work is done."""

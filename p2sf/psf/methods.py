@@ -6,13 +6,13 @@ How the error is predicted is described in `prediction`. See handbook 5.6.
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import partial
-from math import inf
+from math import hypot, inf
 from time import perf_counter
 
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM
-from p2sf.errors import GeometryError, P2SFError, RequestError
+from p2sf.errors import GeometryError, P2SFError, RequestError, SamplingError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message
@@ -20,9 +20,9 @@ from p2sf.paraxial.seidel import Coefficients, check_seidel, coefficients, reaso
 from p2sf.psf.fitted import MOST_NODES as MOST_FITTED
 from p2sf.psf.fitted import NodesOf, psf_of_fit
 from p2sf.psf.gaussian_fit import gaussian_psf
+from p2sf.psf.huygens import LAST_PASS, RayPupil, Watch, blur_um2, first_counts, sum_rays
 from p2sf.psf.huygens import MOST_NODES as MOST_RAYS
-from p2sf.psf.huygens import RayPupil, Watch, blur_um2, sum_rays
-from p2sf.psf.prediction import CAUTION, EDGE_ERROR, SAFETY, TRACED_ERROR, predicted_error, seidel_sigma
+from p2sf.psf.prediction import EDGE_ERROR, SAFETY, TRACED_ERROR, USELESS, predicted_error, seidel_sigma
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import (
     WINDOW_AIRY_RADII,
@@ -34,18 +34,21 @@ from p2sf.psf.seidel import (
     suitable_pixel_um,
 )
 from p2sf.psf.seidel_stack import LARGEST_NODES, as_fit
+from p2sf.psf.smooth_pupil import all_reach
 from p2sf.psf.spherical import (
-    MOST_TO_CHOOSE,
     fresnel_number,
+    half_window_um,
     plane_wave_bound,
     plane_wave_error,
     spherical_pupil,
     worth_spherical,
 )
+from p2sf.psf.sums.spherical_waves import TERM_SECONDS
+from p2sf.psf.traced import EDGE_TOLERANCE, traced_psf
 from p2sf.psf.traced import MOST_NODES as MOST_TRACED
-from p2sf.psf.traced import traced_psf
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
+from p2sf.raytrace.exit_sphere import exit_sphere
 from p2sf.raytrace.field_geometry import cone
 from p2sf.raytrace.fit import (
     LEVELS,
@@ -68,6 +71,8 @@ from p2sf.threads import one_blas_thread
 AUTO = "auto"
 BELOW_ONE = 1 - 2.0**-53  # the largest R² that can be required of a choice
 PITCH_RINGS = 8  # of rays, to estimate the extent of the light
+AUTO_SECONDS = 2.0  # that `auto` may take for a sum by its estimated cost: light per pixel takes two, 5 s with all else
+FIELD_SHARE = 0.01  # of the root of the 1 − R² allowed, that a sum of spherical waves may leave of the field
 PLANE_SHARE = 0.5  # of the allowed error that plane waves may use up: spherical ones take fifty times as long as a fit
 QUICK_LEVELS = LEVELS[:2]  # fitted to the same 64 rays
 TABLE_SECONDS, RAY_SECONDS = 4e-7, 4e-6  # of a node from tables of polynomials, and of a ray through a dozen surfaces
@@ -101,7 +106,14 @@ class Choice:
         reason = method_of(self.method).reason
         if reason is None:
             raise ValueError(f"{self.method} is never chosen")
-        return reason(self)
+        missed = self.plane_wave_error or 0.0
+        if self.method == SPHERICAL.name or missed <= PLANE_SHARE * self.allowed_error:
+            return reason(self)
+        return Message(
+            "{reason}; plane waves may miss 1 − R² = {error:.1e} here, and spherical ones would take too long",
+            reason=reason(self),
+            error=min(missed, USELESS),
+        )
 
     @property
     def against_a_fit(self) -> Message:
@@ -143,8 +155,9 @@ class PsfRequest:
     """What a method is asked for: everything a PSF depends on; ``window`` is (samples a side, µm between samples).
 
     ``numbers``: of a fit, as many as ``min_r2`` asks for where None. ``converged``: whether the reference adds rays
-    until two sums agree, or sums once. ``six``: coefficients in place of the lens's own, which
-    ``by_hand`` are altered so that no ray checks them. ``fit``: of the method that fits, where it is known already.
+    until two sums agree, or sums once. ``most_seconds``: estimated ones, of a sum whose cost is not known before.
+    ``choice``: why `auto` takes the method. ``six``: coefficients in place of the lens's own, which ``by_hand`` are
+    altered so that no ray checks them. ``fit``: of the method that fits, where it is known already.
     """
 
     lens: Lens
@@ -154,6 +167,8 @@ class PsfRequest:
     options: PsfOptions = USUAL
     numbers: int | None = None
     converged: bool = True
+    most_seconds: float = inf
+    choice: "Choice | None" = None
     six: Coefficients | None = None
     by_hand: bool = False
     fit: FittedPencil | None = None
@@ -198,28 +213,47 @@ def residual_for(min_r2: float) -> float:
 
 
 @one_blas_thread
-def choose(lens: Lens, source: Source, min_r2: float = 0.99, clip: bool = False) -> Choice:
+def choose(
+    lens: Lens, source: Source, min_r2: float = 0.99, clip: bool = False, window: tuple[int, float] | None = None
+) -> Choice:
     """Return the cheapest method whose predicted R² is at least ``min_r2``, without running the reference.
 
-    The prediction is for the window that shows the whole PSF; in one that shows only its core the error may be larger.
-    Raises GeometryError if the chief ray does not reach the sensor, RequestError for a ``min_r2`` not below 1.
+    The prediction is for a ``window`` (samples a side, µm between samples), or for one that shows the whole PSF. Where
+    the sum that keeps ``min_r2`` is estimated to take more than AUTO_SECONDS, the best one within them is chosen, and
+    its predicted error is above what is allowed. Raises GeometryError if the chief ray does not reach the sensor,
+    RequestError for a ``min_r2`` not below 1.
     """
     _check_min_r2(min_r2, BELOW_ONE)
     allowed = 1 - min_r2
     xi, eta, weight = level_rays(levels_for(lens)[0])
     rays = pencil(lens, source, xi, eta, clip=clip)
     steep = steepness(rays, xi, eta)
-    by_plane_waves = partial(_choose_plane, lens, source, clip, rays, steep)
-    bound = plane_wave_bound(lens, source, rays, weight, steep) if rays.passed.all() else inf
-    if bound <= max(CAUTION, PLANE_SHARE * allowed):  # which costs little, and leaves the choice to plane waves
-        choice = by_plane_waves(allowed - bound if bound > CAUTION else allowed)
-        if choice.numbers or bound <= CAUTION:
-            return choice
-    plane = plane_wave_error(lens, source, clip, MOST_TO_CHOOSE) if worth_spherical(lens, source, clip) else 0.0
-    if plane <= PLANE_SHARE * allowed:
-        return by_plane_waves(allowed - plane)
-    tried = Choice("spherical", SETTLED_TOLERANCE**2, 0, int((~rays.passed).sum()), xi.size, allowed)
-    return replace(tried, plane_wave_error=plane)
+    half = inf if window is None else window[0] * window[1] / 2
+    bound = plane_wave_bound(lens, source, rays, weight, steep, half)
+    if bound <= PLANE_SHARE * allowed or not _sphere_is_affordable(lens, source, clip, window):
+        left = allowed - bound if bound <= PLANE_SHARE * allowed else allowed
+        choice = _choose_plane(lens, source, clip, rays, steep, left)
+        both = choice.predicted_error + bound
+        return replace(choice, predicted_error=both, allowed_error=allowed, plane_wave_error=bound)
+    error = TRACED_ERROR if rays.passed.all() and not clip else EDGE_ERROR
+    error = error if error <= allowed else SETTLED_TOLERANCE**2
+    tried = Choice("spherical", error, 0, int((~rays.passed).sum()), xi.size, allowed)
+    return replace(tried, plane_wave_error=bound)
+
+
+def _sphere_is_affordable(lens: Lens, source: Source, clip: bool, window: tuple[int, float] | None) -> bool:
+    """Return whether a sum of spherical waves with one column takes AUTO_SECONDS at most; False without a sphere."""
+    half = half_window_um(lens, source) if window is None else window[0] * window[1] / 2
+    smooth = not clip and mask_seen(lens, source).clear and all_reach(lens, source)
+    most = AUTO_SECONDS / (2 * TERM_SECONDS) if smooth else AUTO_SECONDS * LAST_PASS / RAY_SECONDS
+    try:
+        sphere = exit_sphere(lens, source)
+        if sphere is None:
+            return False
+        first_counts(lens, source, hypot(half, half), clip, int(most), sphere)
+    except (GeometryError, SamplingError):
+        return False
+    return True
 
 
 def _choose_plane(lens: Lens, source: Source, clip: bool, rays: Rays, steep: Steepness, allowed: float) -> Choice:
@@ -317,8 +351,15 @@ def render(
     asked = PsfRequest(lens, source, method, (pixels, pixel_um), options)
     if method != AUTO:
         return psf_of(asked)
-    choice = choose(lens, source, options.min_r2, options.clip)
-    return psf_of(replace(asked, method=choice.method, numbers=choice.numbers, fit=choice.fit))
+    return psf_of(chosen(asked))
+
+
+def chosen(asked: PsfRequest) -> PsfRequest:
+    """Return a request for a method in place of "auto", which is to take AUTO_SECONDS at most."""
+    choice = choose(asked.lens, asked.source, asked.options.min_r2, asked.options.clip, asked.window)
+    once = choice.method == SPHERICAL.name and choice.predicted_error > SETTLED_TOLERANCE**2
+    asked = replace(asked, method=choice.method, numbers=choice.numbers, fit=choice.fit, choice=choice)
+    return replace(asked, most_seconds=AUTO_SECONDS, converged=not once)
 
 
 def whole_pixel_um(lens: Lens, source: Source, pixels: int, method: str = AUTO) -> float:
@@ -359,8 +400,21 @@ def psf_of(asked: PsfRequest, cancelled: Cancelled | None = None) -> Psf:
     psf = method_of(asked.method).psf(asked, cancelled)
     if asked.by_hand:
         return psf
+    if asked.choice is not None:
+        psf = _with_promise(psf, asked.choice, 1 - asked.options.min_r2)
     number, error = (partial(_or_none, figure, asked) for figure in (_fresnel_number, _plane_wave_error))
     return psf.with_fields(fresnel_number=number, plane_wave_error=error)
+
+
+def _with_promise(psf: Psf, choice: Choice, asked_error: float) -> Psf:
+    """Return what `auto` made with the 1 − R² that was asked for, and with what plane waves may miss."""
+    error = psf.predicted_error
+    if choice.method != SPHERICAL.name and error is not None and choice.plane_wave_error is not None:
+        error += choice.plane_wave_error
+    if error is None or psf.error is None or error <= asked_error:
+        return psf.with_fields(predicted_error=error, asked_error=asked_error)
+    # Where the promise is not kept, the error of the sum is the smaller part of what the picture misses.
+    return psf.with_fields(predicted_error=error, error=hypot(psf.error, error**0.5), asked_error=asked_error)
 
 
 def _or_none(figure: Callable[[PsfRequest], float], asked: PsfRequest) -> float | None:
@@ -427,7 +481,8 @@ def _share_of_rays(psf: Psf, asked: PsfRequest) -> float | None:
 
 
 def _by_traced_rays(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
-    return traced_psf(asked.lens, asked.source, *asked.window, asked.options.quality, asked.options.clip, cancelled)
+    watch = Watch(cancelled=cancelled, most_seconds=asked.most_seconds)
+    return traced_psf(asked.lens, asked.source, *asked.window, asked.options.quality, asked.options.clip, watch)
 
 
 def _by_huygens(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
@@ -439,8 +494,13 @@ def _by_spherical_waves(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
 
 
 def _by_sum(pupil: RayPupil, asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
-    rtol = SETTLED_TOLERANCE if asked.options.quality == "settled" and asked.converged else None
-    return sum_rays(pupil, asked.window, rtol, Watch(cancelled=cancelled), asked.options.quality)
+    settled, once = asked.options.quality == "settled", not asked.converged
+    if once and pupil.sphere and settled and not (pupil.whole and all_reach(asked.lens, asked.source)):
+        once = False  # nodes along an outline are known to suffice only where two sums agree
+    rtol = (EDGE_TOLERANCE if not asked.converged else SETTLED_TOLERANCE) if settled and not once else None
+    left = 0.0 if asked.choice is None else FIELD_SHARE * float(np.sqrt(asked.choice.allowed_error))
+    watch = Watch(cancelled=cancelled, most_seconds=asked.most_seconds, allowed=left)
+    return sum_rays(pupil, asked.window, rtol, watch, asked.options.quality)
 
 
 def _by_gaussian(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
@@ -476,8 +536,8 @@ def _nothing_else_suffices(choice: Choice) -> Message:
 
 def _waves_are_spherical(choice: Choice) -> Message:
     return Message(
-        "spherical waves from the exit pupil, since plane ones would leave 1 − R² = {error:.1e}",
-        error=choice.plane_wave_error,
+        "spherical waves from the exit pupil, since plane ones may leave 1 − R² = {error:.1e}",
+        error=min(choice.plane_wave_error or 0.0, USELESS),
     )
 
 

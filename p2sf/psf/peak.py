@@ -4,8 +4,8 @@ The intensity holds no frequency above 2s, s being the highest of the pupil's, a
 it is at least M·cos²(2πs·d) at a distance d from there, d ≤ 1/(4s), since a function bounded by 1 follows a cosine at
 the fastest (Duffin & Schaeffer 1938, of 2I/M − 1). So a sample bounds the picture around it, and Newton's method starts
 from the local maxima of the samples, highest first, until no other can lead higher. The search is complete except for
-three savings: it stays inside a window with a dark border (DARK), tries at most MOST_CLIMBS maxima, and fewer if a
-climb is expensive (MOST_TERMS).
+four savings: it stays inside a window with a dark border (DARK), tries at most MOST_CLIMBS maxima, and fewer if a
+climb is expensive (MOST_TERMS), or none of very many waves (MANY_WAVES).
 """
 
 from collections.abc import Callable, Iterator
@@ -30,6 +30,8 @@ MOST_CLIMBS = 16
 MOST_TERMS = 2**17  # waves times climbs, after the first: some tens of milliseconds
 MOST_IN_PREVIEW = 2**12  # most waves for a climb in a preview, which otherwise takes its best sample
 CLIMB_STEPS = 12  # of Newton's method
+MOST_WHILE_CLIMBING = 2**22  # waves times steps, beyond which fewer steps have to do: a second for all
+MANY_WAVES = 2**20  # from which on the brightest sample is the peak: a climb takes three times as long as the picture
 ENOUGH = {"preview": 1e-3, "settled": 1e-6}  # of the peak: the next step gains about the square of it
 ROUNDING = 1e-9
 _later: ContextVar[bool] = ContextVar("later", default=False)
@@ -94,6 +96,8 @@ def peak_of(
     if quality == "preview":
         few = waves.fx.size <= MOST_IN_PREVIEW
         return climb(waves, brightest.x_um, brightest.y_um, quality) if few else brightest
+    if waves.fx.size > MANY_WAVES:
+        return brightest
     half = waves.blur_um + BORDER / waves.spread
     held = half <= -axis[0] or _border(intensity) < DARK * intensity.max()
     if held and pixel_um * waves.spread * ENOUGH_SAMPLES <= 1 + ROUNDING:
@@ -178,7 +182,7 @@ def _highest(waves: Waves, starts: list[tuple[float, float, float]]) -> Peak:
 def climb(waves: Waves, x: float, y: float, quality: str = "settled") -> Peak:
     """Return the maximum near a point; no step exceeds half of the resolution of the pupil."""
     most = 1 / (8 * waves.spread)
-    for _ in range(CLIMB_STEPS):
+    for _ in range(max(2, min(CLIMB_STEPS, MOST_WHILE_CLIMBING // waves.fx.size))):
         value, step_x, step_y, gain = waves.near(x, y)
         part = min(1.0, most / max(hypot(step_x, step_y), 1e-300))
         x, y = x + part * step_x, y + part * step_y

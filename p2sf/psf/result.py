@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 UNSTATED = Message("")
 LEAST_LIGHT = 0.9  # share of all light below which a warning says that the window cuts off the PSF
+HALF_OF_LIGHT = 0.5  # below which a window's relative L2 error is stated too
 IN_WINDOW = "light in the window"  # name of `Psf.energy` wherever it is shown, also as the reference of other figures
 
 Value = TypeVar("Value")
@@ -107,7 +108,10 @@ class Psf:
         n'a²/(λz) of the exit pupil, of radius a at a distance z from the sensor; infinite of a pupil at infinity.
     plane_wave_error : float or None
         Predicted 1 − R² of plane waves, which every method but `spherical` sums, against spherical ones; None if not
-        known. It is not part of ``predicted_error``.
+        known. It is part of ``predicted_error`` only where "auto" chose the method.
+    asked_error : float or None
+        The 1 − R² that "auto" was asked to keep. Where ``predicted_error`` is above it, no method keeps it within some
+        seconds, and ``error`` bounds the relative L2 error of the picture, not of its sum alone.
     provenance : dict or None
         What it is of, as JSON has it: the lens with a hash, depth, field, wavelength, sensor, focus, f-number and mask.
     """
@@ -131,6 +135,7 @@ class Psf:
     fresnel_number: OnDemand[Figure] = OnDemand()
     plane_wave_error: OnDemand[Figure] = OnDemand()
     provenance: OnDemand[Mapping[str, Any] | None] = OnDemand()
+    asked_error: float | None = None
 
     def with_fields(self, **values: Any) -> "Psf":
         """Return the same PSF with these fields replaced; unlike `replace` it does not evaluate deferred figures."""
@@ -168,7 +173,36 @@ class Psf:
 
     @property
     def caution(self) -> Message | None:
-        """Return a warning if the window misses much of the light, else None."""
+        """Return a warning if the window misses much of the light, or "auto" could not keep its promise; else None."""
+        found = [message for message in (self._cut_off, self.shortfall) if message]
+        if len(found) < 2:
+            return found[0] if found else None
+        return Message("{first}. {second}", first=found[0], second=found[1])
+
+    @property
+    def shortfall(self) -> Message | None:
+        """Return that "auto" could not keep the R² that it was asked for within some seconds; None where it does."""
+        missed = self.predicted_error
+        if self.asked_error is None or missed is None or missed <= self.asked_error:
+            return None
+        if missed >= 1:
+            return Message(
+                "this blur takes more than some seconds to the accuracy asked for, 1 − R² ≤ {asked:.1e}; this picture "
+                "of {method} may be wrong throughout; stop down, refocus, or choose a method by its name",
+                asked=self.asked_error,
+                method=self.method,
+            )
+        return Message(
+            "this blur takes more than some seconds to the accuracy asked for, 1 − R² ≤ {asked:.1e}; {method} keeps "
+            "1 − R² ≤ {error:.1e}, a relative L2 error of {l2:.1e}",
+            asked=self.asked_error,
+            method=self.method,
+            error=missed,
+            l2=float(np.sqrt(missed)),
+        )
+
+    @property
+    def _cut_off(self) -> Message | None:
         least = 1.0 if self.energy is None or not np.size(self.energy) else float(np.min(self.energy))
         if least >= LEAST_LIGHT:
             return None
@@ -200,6 +234,13 @@ class Psf:
             parts.append(f"Strehl ratio {self.strehl:.3g}")
         if isinstance(self.energy, float):
             parts.append(f"{100 * self.energy:.3g} % of the {IN_WINDOW}")
+        if self.shortfall:
+            parts.append(f"1 − R² up to {min(float(self.predicted_error or 0.0), 1.0):.1e}")
+        if isinstance(self.energy, float) and self.energy < HALF_OF_LIGHT and self.error and self.predicted_error:
+            # R² compares with what little the light varies in such a window.
+            parts.append(
+                f"relative L2 error up to {min(float(np.hypot(self.error, np.sqrt(self.predicted_error))), 1.0):.1e}"
+            )
         return f"<Psf: {', '.join(parts)}>"
 
     def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> np.ndarray:

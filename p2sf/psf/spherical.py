@@ -11,12 +11,12 @@ the shape of the waves alone; both take the radiometric ones (`RayPupil.areas`).
 """
 
 from functools import lru_cache
-from math import hypot, inf, pi
+from math import hypot, inf, pi, prod
 
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM, centred_axis
-from p2sf.errors import P2SFError
+from p2sf.errors import P2SFError, SamplingError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.psf.compare import r_squared
@@ -25,7 +25,7 @@ from p2sf.psf.prediction import CAUTION
 from p2sf.psf.smooth_pupil import interpolated_waves
 from p2sf.psf.sums.plane_waves import Counts, Waves
 from p2sf.psf.sums.spherical_waves import SphericalWaves, waves_from
-from p2sf.pupil.domain import WHOLE
+from p2sf.pupil.domain import WHOLE, PupilDomain
 from p2sf.raytrace.exit_sphere import ExitSphere, exit_sphere
 from p2sf.raytrace.fit import level_rays, levels_for
 from p2sf.raytrace.pencil import Rays, exit_radius, pencil
@@ -34,6 +34,7 @@ from p2sf.threads import one_blas_thread
 
 # Of (2π)² times the variance, less by FALL of the slope of the phase in waves: where it is steep, few rays interfere.
 BOUND, FALL = 0.4, 2 / 3  # held by 500 random states (python -m tests.long.spherical_prediction)
+MOST_INSIDE = 0.9  # of the rays in a window, from which on its R² is that of the whole picture
 SAMPLES = 64  # a side of the window in which the two sums are compared
 ROOM = 1.1, 2.0  # of that window: of the landing points, and Airy radii
 MOST_NODES = 2**17  # of that comparison: half a second
@@ -61,26 +62,59 @@ def fresnel_number(lens: Lens, source: Source) -> float:
     return float(radius**2 * abs(sphere.waves_per_um / (sphere.distance * UM_PER_MM)))
 
 
-def plane_wave_bound(lens: Lens, source: Source, rays: Rays, weight: np.ndarray, steep: Steepness) -> float:
-    """Return an upper bound of 1 − R² between plane and spherical waves, from where rays land.
+def plane_wave_bound(
+    lens: Lens, source: Source, rays: Rays, weight: np.ndarray, steep: Steepness, half_um: float = inf
+) -> float:
+    """Return an upper bound of 1 − R² between plane and spherical waves in a window of ±``half_um``, by landing points.
 
     At X, a distance D from where a ray lands, the waves differ by n'D²/(2λz), to second order. Of this, without its
     mean over the rays, the variance over rays and over X is (n'/2λz)²·(⟨r⁴⟩ − ⟨r²⟩² + 4 tr C² + 8s² tr C), with r from
     the centroid, C the covariance of the landing points, and s the `Steepness.light_um`, twice which diffraction
-    spreads each. Of it, BOUND/(1 + slope)^FALL counts.
+    spreads each. Of it, BOUND/(1 + slope)^FALL counts in a window that shows the light, where few rays interfere. In
+    one that leaves out some of it all rays may interfere, as in the centre of a blur on the axis: there X is anywhere
+    in the window, and the whole variance counts. Light that spreads by as much as z falls elsewhere than by small
+    angles (`_wide_angle`). Infinite where rays tell nothing.
     """
-    own, domain, light_um = slice(weight.size), lens.pupil_domain, steep.light_um
-    share = weight / weight.sum()
-    x, y = rays.x_um[own], rays.y_um[own]
+    own, domain = slice(weight.size), lens.pupil_domain
+    share = np.where(rays.passed[own], weight, 0.0)
+    distance = float(np.ravel(exit_radius(lens, source, rays))[0]) * UM_PER_MM
+    if not share.sum() or not distance:
+        return inf
+    share = share / share.sum()
+    x, y = (np.where(rays.passed[own], place[own], 0.0) for place in (rays.x_um, rays.y_um))
+    scale = float(rays.index / np.ravel(rays.wavelength_um)[0]) * pi / distance
+    sine = float(np.hypot(np.ravel(rays.chief_kx)[0], np.ravel(rays.chief_ky)[0]))
+    wide = _wide_angle(steep, abs(distance), sine)
+    if float(share @ ((np.abs(x) <= half_um) & (np.abs(y) <= half_um))) < MOST_INSIDE:
+        return float(np.nan_to_num(scale * scale * _spread_anywhere(domain, share, x, y, half_um) + wide, nan=inf))
     x, y = x - domain.mean_across(share, x), y - share @ y
     xx, yy, xy = x * x, y * y, float(domain.mean_across(share, x * y))
     square = xx + yy
     cxx, cyy = float(share @ xx), float(share @ yy)
     spread = float(share @ (square * square)) - (cxx + cyy) ** 2
-    spread += 4 * (cxx**2 + cyy**2 + 2 * xy**2) + 8 * light_um**2 * (cxx + cyy)
-    distance = float(np.ravel(exit_radius(lens, source, rays))[0]) * UM_PER_MM
-    scale = float(rays.index / np.ravel(rays.wavelength_um)[0]) * pi / distance
-    return BOUND * float((1 + steep.radial) ** -FALL) * scale * scale * spread
+    spread += 4 * (cxx**2 + cyy**2 + 2 * xy**2) + 8 * steep.light_um**2 * (cxx + cyy)
+    bound = BOUND * float((1 + steep.radial) ** -FALL) * scale * scale * spread
+    return float(np.nan_to_num(bound + wide, nan=inf))
+
+
+def _spread_anywhere(domain: PupilDomain, share: np.ndarray, x: np.ndarray, y: np.ndarray, half_um: float) -> float:
+    """Return the variance over rays of D², µm⁴, its mean over a window, by three Gauss–Legendre points a side."""
+    place, weight = half_um * np.sqrt(0.6) * np.array([-1, 0, 1]), np.array([5, 8, 5]) / 18
+    images = domain.images
+    across = np.concatenate([image * x for image in images])
+    up, part = np.tile(y, len(images)), np.tile(share / len(images), len(images))
+    square = (place[:, None, None] - across) ** 2 + (place[:, None] - up) ** 2
+    return float(weight @ ((square * square) @ part - (square @ part) ** 2) @ weight)
+
+
+def _wide_angle(steep: Steepness, distance_um: float, sine: float) -> float:
+    """Return about what plane waves miss of light that spreads by some of the pupil's distance, as 1 − R².
+
+    Light t times that distance beside a ray is displaced by t·sine and t²/2 of t, of a chief ray at that ``sine``, and
+    t² fainter.
+    """
+    spread, t = steep.light_um, steep.light_um / distance_um
+    return (pi * steep.spread * spread * (sine * t + t * t / 2)) ** 2 + t**4
 
 
 @lru_cache(maxsize=64)
@@ -98,15 +132,20 @@ def plane_wave_error(lens: Lens, source: Source, clip: bool = False, most: int =
     sphere = exit_sphere(lens, source)  # behind the counts, which refuse a wide blur sooner
     if sphere is None:
         return 0.0
+    counts = max(counts, first_counts(lens, source, reach, clip, most, sphere), key=prod)
     pupils = RayPupil(lens, source, clip), RayPupil(lens, source, clip, sphere=sphere)
     plane, own = (_waves_of(pupil, counts, reach).plane.intensity(axis, axis) for pupil in pupils)
     return 1 - r_squared(plane, own)
 
 
 def worth_spherical(lens: Lens, source: Source, clip: bool) -> bool:
-    """Return whether plane waves are predicted to miss by more than CAUTION; False where that takes too many nodes."""
+    """Return whether plane waves are predicted to miss by more than CAUTION, or may where that takes too many nodes."""
     try:
         return plane_wave_error(lens, source, clip, MOST_TO_CHOOSE) > CAUTION
+    except SamplingError:
+        xi, eta, weight = level_rays(levels_for(lens)[0])
+        rays = pencil(lens, source, xi, eta, clip=clip)
+        return plane_wave_bound(lens, source, rays, weight, steepness(rays, xi, eta)) > CAUTION
     except P2SFError:
         return False
 

@@ -5,9 +5,8 @@ by interpolation as many plane waves as blur and window require. Held-out rays o
 behind a mask, all rays are traced.
 """
 
-from collections.abc import Callable
-from dataclasses import replace
 from functools import partial
+from math import prod
 from time import perf_counter
 
 from p2sf.lens.lens import Lens
@@ -43,23 +42,25 @@ def traced_psf(
     pixel_um: float,
     quality: str = "settled",
     clip: bool = False,
-    cancelled: Callable[[], bool] | None = None,
+    watch: Watch | None = None,
 ) -> Psf:
     """Return the PSF of exact rays, one pass: "settled" in float64, "preview" in float32.
 
     If rays are lost or clipped, the outline of the pupil is less accurate than its inside, and rays are added until two
-    passes agree to EDGE_TOLERANCE: ``cancelled`` is called between blocks of them (`Cancelled`). Raises GeometryError
-    if the chief ray does not reach the sensor, SamplingError for a window that needs too many rays.
+    passes agree to EDGE_TOLERANCE, or their cost ends that: ``watch`` is asked between blocks of them (`Cancelled`).
+    Raises GeometryError if the chief ray does not reach the sensor, SamplingError for a window that needs too many
+    rays.
     """
-    started, settled = perf_counter(), quality == "settled"
+    started, settled, watch = perf_counter(), quality == "settled", watch or Watch()
     pupil, window = RayPupil(lens, source, clip), (pixels, pixel_um)
     if clip or not all_reach(lens, source):
-        tolerance = EDGE_TOLERANCE if settled else None
-        found = sum_rays(pupil, window, tolerance, Watch(cancelled=cancelled))
-        return replace(found, method="traced", predicted_error=EDGE_ERROR)
+        return _until_two_agree(pupil, window, settled, watch)
     reach = window_reach_um(*window)
     counts = first_counts(lens, source, reach, clip, MOST_NODES)
-    rays = interpolated_waves(lens, source, counts, reach) or one_pass(pupil, window, Watch(cancelled=cancelled))
+    smooth = interpolated_waves(lens, source, counts, reach)
+    if smooth is None and settled and prod(counts) / 2 > watch.most:
+        return _until_two_agree(pupil, window, settled, watch)
+    rays = smooth or one_pass(pupil, window, watch)
     precision = "float64" if settled else "float32"
     made = Origin(
         "traced",
@@ -73,3 +74,10 @@ def traced_psf(
     blur = blur_um2(pupil) if resolved(rays.waves.spread, pixel_um) else None
     reaching = partial(waves_reaching, pupil)
     return psf_of_waves(rays.waves, window, source.wavelength_um, blur, made, reaching, quality)
+
+
+def _until_two_agree(pupil: RayPupil, window: tuple[int, float], settled: bool, watch: Watch) -> Psf:
+    """Return the PSF of rays that are added until two pictures agree, or, of a preview, of one pass."""
+    found = sum_rays(pupil, window, EDGE_TOLERANCE if settled else None, watch)
+    reached = 0.0 if found.error is None else found.error
+    return found.with_fields(method="traced", predicted_error=max(EDGE_ERROR, reached**2))

@@ -30,10 +30,11 @@ from p2sf.psf.seidel import suitable_pixel_um
 from p2sf.psf.sums.plane_waves import window_reach_um
 from p2sf.psf.traced import traced_psf
 from p2sf.raytrace.fit import NOT_SYMMETRIC
-from tests.long.method_choice import STEEPEST, TOLERANCES, random_point
+from tests.long.method_choice import TOLERANCES, random_point
 
 DECENTRE_MM, TILT_DEG = 0.2, 0.5
 PIXELS = 48
+STEEPEST = 80.0  # waves per pupil radius: beyond it a reference takes seconds
 ASKED_OF_FITTED, ASKED_OF_TRACED = 0.994, 0.9999
 MOST_NODES = 2**18  # radii × directions with which a reference begins: beyond that it takes minutes
 EACH = 10  # points between two signs of progress

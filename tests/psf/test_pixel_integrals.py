@@ -129,8 +129,8 @@ def test_a_looked_up_fit_knows_its_share_of_the_light():
 def test_a_psf_that_its_window_cuts_off_is_said_to_be():
     lens, source = find_lens("double_gauss_28"), p2sf.Source(field_deg=10)
     with pytest.warns(p2sf.P2SFWarning) as caught:
-        cut = p2sf.render(lens, source, f_number=2.8, pixel_um=2.0)
-    whole = p2sf.render(lens, source, f_number=2.8, pixels=192, pixel_um=2.0)
+        cut = p2sf.render(lens, source, "fitted", f_number=2.8, pixel_um=2.0)
+    whole = p2sf.render(lens, source, "fitted", f_number=2.8, pixels=192, pixel_um=2.0)
     inside = whole.values[64:128, 64:128].sum()  # both begin 32 pixels below the chief ray's
     assert cut.energy == pytest.approx(inside * whole.energy, rel=1e-3)
     assert cut.caution.values["share"] == pytest.approx(100 * cut.energy) and f"80.4 % of the {IN_WINDOW}" in repr(cut)

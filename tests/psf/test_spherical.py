@@ -2,19 +2,25 @@
 
 from dataclasses import replace
 from math import inf
+from time import process_time
 
 import numpy as np
 import pytest
+from scipy.special import j0, j1
 
+from p2sf.camera import Camera, set_up_source
 from p2sf.conventions import centred_axis
+from p2sf.errors import Cancelled
+from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.metrics.measures import energy_in, mtf_of, parts_of
 from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import ray_waves
-from p2sf.psf.methods import PsfOptions, choose, render
+from p2sf.psf.methods import PsfOptions, PsfRequest, choose, psf_of, render
 from p2sf.psf.peak import climb
+from p2sf.psf.pixel_integrals import render_integrated
 from p2sf.psf.prediction import CAUTION
 from p2sf.psf.spherical import fresnel_number, plane_wave_error, spherical_pupil
 from p2sf.psf.sums.plane_waves import Waves
@@ -23,7 +29,7 @@ from p2sf.pupil.domain import WHOLE
 from p2sf.raytrace.exit_sphere import ExitSphere, exit_sphere
 from p2sf.raytrace.pencil import Rays, pencil
 from tests.long.spherical_prediction import defocused, state, with_fresnel_number
-from tests.support.double_sum import double_sum
+from tests.support.double_sum import double_sum, kirchhoff
 from tests.support.lenses.simple_lenses import simple
 
 WAVE = 0.55
@@ -166,9 +172,10 @@ def test_lens_and_wavelength_scaled_alike_have_the_same_picture():
 def test_auto_takes_spherical_waves_where_plane_ones_miss_by_a_thousandth():
     lens, source = find_lens("cooke_triplet"), Source(field_deg=10)
     focused, blurred = lens, defocused(*with_fresnel_number(lens, source, 100), 100, 4.0)
-    assert choose(focused, source).method == "fitted" and plane_wave_error(focused, source) < CAUTION
+    assert choose(focused, source).method == "fitted"
+    assert plane_wave_error(focused, source) < choose(focused, source).plane_wave_error < CAUTION
     choice = choose(blurred, source)
-    assert choice.method == "spherical" and choice.plane_wave_error == plane_wave_error(blurred, source) > CAUTION
+    assert choice.method == "spherical" and choice.plane_wave_error > plane_wave_error(blurred, source) > CAUTION
     assert "spherical" in str(choice.reason) and render(blurred, source, pixels=16).method == "spherical"
 
 
@@ -196,3 +203,99 @@ def test_the_predicted_difference_is_within_a_factor_of_two(name, number, waves)
     """`tests.long.spherical_prediction` draws 300 at random."""
     found = state(name, find_lens(name), Source(field_deg=3), number, waves)
     assert 0.5 < found.predicted / found.difference < 2 and found.difference < found.bound
+
+
+def kirchhoff_on_axis(stop_mm, before_mm, focal_mm, sensor_mm, wave_um, radii_um):
+    """Return the intensity at distances from the axis behind an ideal lens in its stop, by Fresnel's integral.
+
+    I(r) = |∫₀¹ exp(iπN(z/d)ρ²)·J₀(2πaρr/λz) 2ρ dρ|² over Gauss–Legendre nodes in ρ², with z(1/before − 1/f) + 1 = z/d.
+    """
+    place, weight = np.polynomial.legendre.leggauss(400)  # of at most 30 waves
+    square = (1 + place) / 2
+    number = stop_mm**2 / (wave_um / 1000 * sensor_mm)
+    bend = number * (sensor_mm * ((0.0 if before_mm == inf else 1 / before_mm) - 1 / focal_mm) + 1)
+    turns = 2 * np.pi * stop_mm / (wave_um / 1000 * sensor_mm) * np.outer(radii_um / 1000, np.sqrt(square))
+    field = j0(turns) @ (weight * np.exp(1j * np.pi * bend * square))
+    return np.abs(field) ** 2
+
+
+@pytest.mark.parametrize(("stop", "depth"), [(0.05, 1.0), (0.3, 10.0)])
+def test_auto_keeps_its_promise_in_the_near_field(stop, depth):
+    """Plane waves of these shadows left R² 0.44 and 0.71. Fresnel's integral is exact to (blur/z)², 1e-3 here."""
+    lens = Lens((Surface(thickness=50.0, ideal_focal_length=50.0),), Aperture("stop_semi_diameter", stop), 1)
+    psf = render(lens, Source(depth, 0.0, 0.5), pixels=32)
+    radii = np.hypot(*np.meshgrid(psf.x_um, psf.y_um))
+    exact = kirchhoff_on_axis(stop, depth, 50.0, 50.0, 0.5, radii.ravel()).reshape(32, 32)
+    assert psf.method == "spherical" and r_squared(psf.values, exact) > 0.99 and psf.shortfall is None
+
+
+def on_a_line(psf, lens, source, counts):
+    """Return samples along the row through the chief ray, and Kirchhoff's sum there, each of unit sum."""
+    row = psf.values[psf.values.shape[0] // 2]
+    exact = kirchhoff(lens, source, psf.x_um, 0 * psf.x_um, counts)
+    return row / row.sum(), exact / exact.sum()
+
+
+def test_auto_keeps_its_promise_in_a_window_of_little_light():
+    """A biconvex lens, an object at 500 mm, 128 samples of 1 µm, 2 % of the light: plane waves left R² −0.99."""
+    glass, wave = ConstantIndex(1.6), 0.5876
+    lens = Lens((Surface(60.0, 5.0, glass), Surface(-60.0, 48.5)), Aperture("stop_semi_diameter", 5.0), 1)
+    psf = render_integrated(lens, Source(500.0, 0.0, wave), pixels=128, pixel_um=1.0, wanted=False)
+    found, exact = on_a_line(psf, lens, Source(500.0, 0.0, wave), (180, 180))
+    missed = np.linalg.norm(found - exact) / np.linalg.norm(exact)
+    assert psf.energy < 0.02 and 1 - ((found - exact) ** 2).sum() / ((exact - exact.mean()) ** 2).sum() > 0.99
+    # The sum is exact to 2e-10 in these nodes (360 × 360); the picture states its relative L2 error.
+    assert missed < np.hypot(psf.error, np.sqrt(psf.predicted_error)) < 0.01 and "relative L2 error" in repr(psf)
+
+
+def test_a_stop_smaller_than_the_wavelength_states_that_scalar_waves_do_not_suffice():
+    """Behind it light goes into all directions: with and without obliquity Kirchhoff's integral differs by half."""
+    lens = Lens((Surface(thickness=50.0, ideal_focal_length=50.0),), Aperture("stop_semi_diameter", 1e-4), 1)
+    psf = render(lens, Source(inf, 0.0, 0.5), pixels=32)
+    square = np.add.outer(psf.y_um**2, psf.x_um**2) / 50e3**2
+    turn = 2 * np.pi * 0.1 / 0.5 * np.sqrt(square / (1 + square)) + 1e-9
+    disc = (2 * j1(turn) / turn) ** 2  # in the far field; 1/(1 + square) is |exp(ikr)/r|², and once more (z/r)²
+    plain, oblique = disc / (1 + square), disc / (1 + square) ** 2
+    assert r_squared(psf.values, plain) > 0.999
+    assert psf.predicted_error > 0.99 * max(1 - r_squared(oblique, plain), 1 - r_squared(plain, oblique)) > 0.1
+    assert psf.shortfall and "1 − R² up to" in repr(psf)
+
+
+BLURRED = [
+    ("landscape", 9.7, 885.0, 9.8, 656.2725, (360, 900)),
+    ("double_gauss_28", 4.2, 3706.0, 3.2, 486.1327, (360, 900)),
+    ("wide_angle_35", 4.2, 362.0, 14.2, 587.5618, (360, 900)),
+]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("name", "stop", "depth", "angle", "wave", "counts"), BLURRED)
+def test_auto_keeps_its_promise_under_blur(name, stop, depth, angle, wave, counts):
+    """Plane waves, which were taken since more nodes than 2¹⁶ had to be compared, left R² 0.933, 0.979 and 0.962."""
+    setup = set_up_source(find_lens(name), Source(depth, field_deg=angle, wavelength_nm=wave), Camera(f_number=stop))
+    psf = render(setup.lens, setup.source, pixels=24)
+    exact = double_sum(setup.lens, setup.source, psf.x_um, counts)
+    assert psf.method == "spherical" and psf.shortfall is None
+    assert r_squared(psf.values, exact) > 0.9999  # measured: 3e-6, of which 1e-6 is that of the rank
+
+
+def test_spherical_waves_can_be_interrupted_between_their_columns():
+    lens, source = with_fresnel_number(find_lens("cooke_triplet"), Source(field_deg=10), 30)
+    lens, asked = defocused(lens, source, 30, -3.0), []
+
+    def cancelled():
+        asked.append(True)
+        return len(asked) > 3
+
+    with pytest.raises(Cancelled):
+        psf_of(PsfRequest(lens, source, "spherical", (64, 4.0), converged=False), cancelled)
+    assert len(asked) == 4
+
+
+def test_a_sum_that_takes_too_long_is_cut_and_says_so():
+    """A shadow of Fresnel number 400 by a lens that hardly bends: 1e5 nodes and more columns than places tell."""
+    lens = Lens((Surface(60.0, 5.0, ConstantIndex(1.6)), Surface(-60.0, 48.5)), Aperture("stop_semi_diameter", 5.0), 1)
+    began = process_time()
+    psf = render(lens, Source(50.0, 0.0, 0.5876), pixels=64)
+    assert process_time() - began < 20, "5 s on an idle core; it was 128 s"
+    assert psf.shortfall and psf.predicted_error > 0.01 and psf.error > 0.1

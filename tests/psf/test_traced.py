@@ -10,7 +10,7 @@ from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.psf.compare import r_squared
 from p2sf.psf.fitted import fitted_psf
-from p2sf.psf.huygens import RayPupil, first_counts, huygens_psf, ray_waves
+from p2sf.psf.huygens import RayPupil, Watch, first_counts, huygens_psf, ray_waves
 from p2sf.psf.smooth_pupil import interpolated_waves
 from p2sf.psf.traced import traced_psf
 from p2sf.raytrace.pencil import pencil
@@ -41,7 +41,7 @@ def test_clipped_rays_take_the_references_nodes():
 def test_rays_one_by_one_can_be_stopped(quality):
     lens, source, pixel, _ = list(cases("double_gauss_28"))[2]
     with pytest.raises(Cancelled):
-        traced_psf(lens, source, 32, pixel, quality, True, cancelled=lambda: True)
+        traced_psf(lens, source, 32, pixel, quality, True, Watch(cancelled=lambda: True))
 
 
 @pytest.mark.parametrize("name", LENSES)

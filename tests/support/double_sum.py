@@ -13,6 +13,7 @@ from p2sf.raytrace.pencil import pencil
 
 STEP = 1e-3  # slope of neighbouring fields
 BESIDE = 0.02  # of the pupil's radius
+AT_ONCE = 2**20  # wavelets at places
 
 
 def meeting_point(points: np.ndarray, ways: np.ndarray, axis: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
@@ -50,6 +51,12 @@ def pupil_and_focus(lens: Lens, source: Source) -> tuple[np.ndarray, np.ndarray]
 
 def double_sum(lens: Lens, source: Source, axis_um: np.ndarray, counts: tuple[int, int]) -> np.ndarray:
     """Return the intensity over a square of samples, (y, x), up to a factor."""
+    x, y = np.meshgrid(axis_um, axis_um)
+    return kirchhoff(lens, source, x.ravel(), y.ravel(), counts).reshape(x.shape)
+
+
+def kirchhoff(lens: Lens, source: Source, x_um: np.ndarray, y_um: np.ndarray, counts: tuple[int, int]) -> np.ndarray:
+    """Return the intensity at places on the sensor, (place,), up to a factor."""
     place, weight = np.polynomial.legendre.leggauss(counts[0])
     rho, theta = (1 + place) / 2, (np.arange(counts[1]) + 0.37) * (2 * np.pi / counts[1])
     xi, eta = (np.outer(rho, turn).ravel() for turn in (np.sin(theta), np.cos(theta)))
@@ -67,9 +74,10 @@ def double_sum(lens: Lens, source: Source, axis_um: np.ndarray, counts: tuple[in
         low, high = np.where(outside == outside_low, half, low), np.where(outside == outside_low, high, half)
     wavelets = there - low[:, None] * ways
     path, k = rays.path - rays.index * low, 2 * np.pi / (source.wavelength_um / 1000)
-    field = np.empty((axis_um.size, axis_um.size), complex)
-    for row, y in enumerate(axis_um / 1000):
-        for column, x in enumerate(axis_um / 1000):
-            far = np.linalg.norm(np.array([x, y, 0]) - wavelets, axis=-1) * np.sign(low)
-            field[row, column] = (share * rays.amplitude / far) @ np.exp(1j * k * (path + rays.index * far))
+    field, nodes = np.zeros(x_um.size, complex), max(1, AT_ONCE // x_um.size)
+    places = np.stack([x_um / 1000, y_um / 1000, 0 * x_um], -1)
+    for some in (slice(first, first + nodes) for first in range(0, rho.size * theta.size, nodes)):
+        far = np.linalg.norm(places - wavelets[some, None], axis=-1) * np.sign(low[some, None])
+        turn = np.exp(1j * k * (path[some, None] + rays.index * far))
+        field += ((share * rays.amplitude)[some, None] / far * turn).sum(0)
     return np.abs(field) ** 2

@@ -11,8 +11,10 @@ differs. Over nodes and places this factor is a matrix of small rank: columns at
 give all others (Cheng, Gimbutas, Martinsson & Rokhlin 2005), and each column is one sum of plane waves.
 """
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
+from math import inf
 
 import numpy as np
 from numpy.typing import DTypeLike
@@ -24,8 +26,11 @@ from p2sf.raytrace.exit_sphere import ExitSphere
 
 PROBED = 256  # nodes, and places PROBED_SIDE² of a grid, that show the rank
 PROBED_SIDE = 12
-RANK_ERROR = {np.dtype(np.float64): 1e-6, np.dtype(np.float32): 1e-4}  # of the factor, relative
+FULL_RANK = 0.75  # of the places probed, from which on they do not tell the rank
+RANK_ERROR = {np.dtype(np.float64): 3e-6, np.dtype(np.float32): 1e-3}  # of the factor, relative
 SEED = 0
+PAIRS = 2**20  # of nodes and places, or of columns and places, at a time: some tens of megabytes
+TERM_SECONDS, PAIR_SECONDS = 4e-7, 6e-8  # of a node in a column's sum of plane waves, and of a wavelet at a place
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -33,12 +38,18 @@ class SphericalWaves(Waves):
     """Spherical waves: plane ones at the chief ray's point of the sensor, and how far away they come from.
 
     ``length_um``: signed distance of each node from that point; ``chief``: direction cosines along x and y and the
-    distance of the chief ray; ``waves_per_um``: n'/λ. The nodes are of the whole pupil.
+    distance of the chief ray; ``waves_per_um``: n'/λ. The nodes are of the whole pupil. ``most_seconds``: estimated
+    ones of a sum, which takes fewer columns than the factor has where it would take longer; ``allowed``: what may
+    be left of the factor, relative, at least RANK_ERROR. ``watch`` is called between columns, and raises `Cancelled`
+    where the sum is to end.
     """
 
     length_um: np.ndarray
     chief: tuple[float, float, float]
     waves_per_um: float
+    most_seconds: float = inf
+    allowed: float = 0.0
+    watch: Callable[[], None] | None = None
 
     @property
     def plane(self) -> Waves:
@@ -52,16 +63,37 @@ class SphericalWaves(Waves):
 
     def field(self, x: np.ndarray, y: np.ndarray, dtype: DTypeLike = np.float64) -> np.ndarray:
         """Return the field over a grid of x and y, µm, (y, x), complex, less the phase that the chief ray adds."""
-        at_x, at_y = (part.ravel() for part in np.meshgrid(x, y))
-        nodes, places = self._skeleton(x, y, RANK_ERROR[np.dtype(dtype)])
-        rows = self.factor(nodes, at_x[places], at_y[places])
-        shares = np.linalg.lstsq(rows, self.factor(nodes, at_x, at_y), rcond=None)[0]
-        total: np.ndarray = np.zeros((y.size, x.size), np.result_type(dtype, np.complex64))
-        for place, share in zip(places, shares, strict=True):  # one column at a time: all of them may be gigabytes
-            column = self.factor(slice(None), at_x[place : place + 1], at_y[place : place + 1])[:, 0]
-            part = replace(self.plane, amplitude=self.amplitude * column)
-            total += part.field(x, y, dtype) * share.reshape(total.shape)
+        found = self.skeleton(x, y, dtype)
+        if found.missed is None:
+            return self._one_by_one(x, y).astype(np.result_type(dtype, np.complex64))
+        (at_x, at_y), (nodes, places) = _grid(x, y), (found.nodes, found.places)
+        inverse = np.linalg.pinv(self.factor(nodes, at_x[places], at_y[places]))
+        shares = np.empty((places.size, at_x.size), np.result_type(dtype, np.complex64))
+        for some in _blocks(at_x.size, places.size):
+            shares[:, some] = inverse @ self.factor(nodes, at_x[some], at_y[some])
+        total: np.ndarray = np.zeros((y.size, x.size), shares.dtype)
+        for place, share in zip(places, shares, strict=True):
+            self._look()
+            column = np.empty(self.fx.size, complex)
+            for some in _blocks(column.size, 1):
+                column[some] = self.factor(some, at_x[place : place + 1], at_y[place : place + 1])[:, 0]
+            column *= self.amplitude
+            total += replace(self.plane, amplitude=column).field(x, y, dtype) * share.reshape(total.shape)
         return total
+
+    def _one_by_one(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Return the field by every wavelet at every place."""
+        at_x, at_y = _grid(x, y)
+        total = np.empty(at_x.size, complex)
+        for some in _blocks(at_x.size, self.fx.size):
+            self._look()
+            turn = np.exp(2j * np.pi * (np.outer(self.fx, at_x[some]) + np.outer(self.fy, at_y[some])))
+            total[some] = self.amplitude @ (turn * self.factor(slice(None), at_x[some], at_y[some]))
+        return total.reshape(y.size, x.size)
+
+    def _look(self) -> None:
+        if self.watch:
+            self.watch()
 
     def factor(self, nodes: slice | np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Return by what wavelets differ from plane waves, relative to that of the chief ray, (nodes, places)."""
@@ -71,6 +103,13 @@ class SphericalWaves(Waves):
         turn = np.exp((2j * np.pi * self.waves_per_um) * (beyond - of_chief))
         factor: np.ndarray = turn * (self.chief[2] / (length + more))
         return factor
+
+    def obliquity(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Return the cosine of the angle at the pupil's centre between places of a grid and the chief ray, (y, x)."""
+        at_x, at_y = _grid(x, y)
+        more, distance = _beyond_plane(*self.chief, at_x, at_y)[0], self.chief[2]
+        cosine: np.ndarray = (distance + self.chief[0] * at_x + self.chief[1] * at_y) / (distance + more)
+        return cosine.reshape(y.size, x.size)
 
     def near(self, x: float, y: float) -> tuple[float, float, float, float]:
         """Return what `Waves.near` does, of the plane waves that agree with the wavelets there."""
@@ -86,23 +125,51 @@ class SphericalWaves(Waves):
         there = self.amplitude * self.factor(slice(None), np.array([x]), np.array([y]))[:, 0] * turn
         return Waves(there, fx, fy, WHOLE, self.blur_um).near(0.0, 0.0)
 
-    def _skeleton(self, x: np.ndarray, y: np.ndarray, error: float) -> tuple[np.ndarray, np.ndarray]:
-        """Return nodes and places, flat ones of the grid, whose rows and columns give the factor to an error."""
+    def skeleton(self, x: np.ndarray, y: np.ndarray, dtype: DTypeLike = np.float64) -> "Skeleton":
+        """Return the nodes and places of a grid whose rows and columns give the factor, and how exactly."""
         from scipy.linalg import qr
 
-        order = np.random.default_rng(SEED).permutation(self.fx.size)[:PROBED]
+        order = np.random.default_rng(SEED).integers(self.fx.size, size=PROBED)
         ends = [int(find(f)) for f in (self.fx, self.fy) for find in (np.argmin, np.argmax)]
         nodes = np.unique(np.append(order, ends))
         columns, rows = (np.unique(np.linspace(0, axis.size - 1, PROBED_SIDE).round().astype(int)) for axis in (x, y))
         places = (rows[:, None] * x.size + columns).ravel()
-        at_x, at_y = (part.ravel() for part in np.meshgrid(x[columns], y[rows]))
+        at_x, at_y = _grid(x[columns], y[rows])
         sample = self.factor(nodes, at_x, at_y)
         upper, chosen = qr(sample, mode="r", pivoting=True)[-2:]
-        diagonal = np.abs(np.diag(upper))
-        rank = max(1, int((diagonal > error * diagonal[0]).sum()))
+        missed = np.append(np.abs(np.diag(upper)), 0.0) / max(abs(upper[0, 0]), np.finfo(float).tiny)
+        rank = max(1, int((missed > max(self.allowed, RANK_ERROR[np.dtype(dtype)])).sum()))
+        known = rank < FULL_RANK * places.size or places.size == x.size * y.size
+        a_column, pairs = TERM_SECONDS * self.fx.size, PAIR_SECONDS * self.fx.size * x.size * y.size
+        if pairs < min(a_column * rank, self.most_seconds) or (not known and pairs < self.most_seconds):
+            return Skeleton(nodes, places, None)
+        rank = max(1, min(rank, int(min(self.most_seconds / a_column, rank))))
         kept = chosen[:rank]
         rows_kept = qr(sample[:, kept].T, mode="r", pivoting=True)[-1][:rank]
-        return nodes[rows_kept], places[kept]
+        return Skeleton(nodes[rows_kept], places[kept], float(missed[rank]) if known else inf)
+
+
+@dataclass(frozen=True, eq=False)
+class Skeleton:
+    """Nodes and places, flat ones of a grid, whose rows and columns of a factor give all of it.
+
+    ``missed``: what they leave of it, relative; infinite where that is unknown, None where every wavelet is summed.
+    """
+
+    nodes: np.ndarray
+    places: np.ndarray
+    missed: float | None
+
+
+def _grid(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    at_x, at_y = np.meshgrid(x, y)
+    return at_x.ravel(), at_y.ravel()
+
+
+def _blocks(count: int, each: int) -> Iterator[slice]:
+    """Yield slices of ``count`` things with ``each`` numbers, PAIRS numbers at a time."""
+    size = max(1, PAIRS // max(each, 1))
+    return (slice(first, first + size) for first in range(0, count, size))
 
 
 def waves_from(waves: Waves, sphere: ExitSphere | None, length_mm: np.ndarray | None = None) -> Waves:

@@ -3,6 +3,10 @@
 <TS version="2.1" language="de">
 <context>
 <name>p2sf</name>
+<message><source>one pass in float64</source><translation>ein Durchgang in float64</translation></message>
+<message><source>spherical waves from the exit pupil, since plane ones may leave 1 − R² = {error:.1e}</source><translation>Kugelwellen aus der Austrittspupille, da ebene 1 − R² = {error:.1e} übrig lassen können</translation></message>
+<message><source>this blur takes more than some seconds to the accuracy asked for, 1 − R² ≤ {asked:.1e}; this picture of {method} may be wrong throughout; stop down, refocus, or choose a method by its name</source><translation>diese Unschärfe braucht mehr als einige Sekunden für die verlangte Genauigkeit, 1 − R² ≤ {asked:.1e}; dieses Bild von {method} kann ganz falsch sein; abblenden, neu scharfstellen oder ein Verfahren beim Namen wählen</translation></message>
+<message><source>this blur takes more than some seconds to the accuracy asked for, 1 − R² ≤ {asked:.1e}; {method} keeps 1 − R² ≤ {error:.1e}, a relative L2 error of {l2:.1e}</source><translation>diese Unschärfe braucht mehr als einige Sekunden für die verlangte Genauigkeit, 1 − R² ≤ {asked:.1e}; {method} hält 1 − R² ≤ {error:.1e}, einen relativen L2-Fehler von {l2:.1e}</translation></message>
 <message><source>Transparency</source><translation>Transparenz</translation></message>
 <message><source>What is shown has the PSFs of one distance; show through the lens, or sharpened by its PSFs, to use depths</source><translation>Was gezeigt wird, hat die PSFs einer Entfernung; Entfernungen gelten durch das Objektiv und mit seinen PSFs geschärft</translation></message>
 <message><source>the depth map holds depths that are not positive, {count} of them, the first {value:g} mm at row {row}, column {column} (from 0); give mm from the first vertex, inf allowed</source><translation>die Tiefenkarte enthält {count} Abstände, die nicht positiv sind, den ersten mit {value:g} mm in Zeile {row}, Spalte {column} (ab 0); mm vom ersten Scheitel angeben, inf erlaubt</translation></message>
@@ -15,6 +19,7 @@
 <message><source>{parameter} is {given}; give four whole numbers: top, bottom, left, right</source><translation>{parameter} ist {given}; vier ganze Zahlen angeben: oben, unten, links, rechts</translation></message>
 <message><source>{path} holds depths that are negative or no numbers, {count} of them, the first {value:g} at row {row}, column {column} (from 0); correct them</source><translation>{path} enthält {count} Entfernungen, die negativ oder keine Zahlen sind, die erste mit {value:g} in Zeile {row}, Spalte {column} (ab 0); berichtigen</translation></message>
 <message><source>{path} holds values that are not finite, {count} of them, the first at row {row}, column {column} (from 0); replace them first</source><translation>{path} enthält {count} Werte, die nicht endlich sind, den ersten in Zeile {row}, Spalte {column} (ab 0); diese zuerst ersetzen</translation></message>
+<message><source>{reason}; plane waves may miss 1 − R² = {error:.1e} here, and spherical ones would take too long</source><translation>{reason}; ebene Wellen können hier 1 − R² = {error:.1e} verfehlen, und Kugelwellen dauerten zu lange</translation></message>
 <message><source>{rows} × {columns} places × {waves} wavelengths × {depths} depths</source><translation>{rows} × {columns} Orte × {waves} Wellenlängen × {depths} Entfernungen</translation></message>
 <message><source>No maps of this lens</source><translation>Keine Karten dieses Objektivs</translation></message>
 <message><source>Show the Cooke triplet</source><translation>Das Cooke-Triplett zeigen</translation></message>
@@ -1928,7 +1933,6 @@
 <message><source>spectrum</source><translation>Spektrum</translation></message>
 <message><source>spherical</source><translation>sphärisch</translation></message>
 <message><source>spherical aberration</source><translation>sphärische Aberration</translation></message>
-<message><source>spherical waves from the exit pupil, since plane ones would leave 1 − R² = {error:.1e}</source><translation>Kugelwellen aus der Austrittspupille, da ebene 1 − R² = {error:.1e} übrig ließen</translation></message>
 <message><source>spherical: waves from the exit pupil</source><translation>spherical: Wellen aus der Austrittspupille</translation></message>
 <message><source>split</source><translation>geteilt</translation></message>
 <message><source>split of the photo</source><translation>Teilung des Fotos</translation></message>
