@@ -23,6 +23,7 @@ FALSE_SHARE = 0.02  # of the pictures' squares about their mean: the best false 
 KEPT = 5  # coarse fits that are followed to their end
 COARSE_STEPS, FINE_STEPS = 12, 60
 COARSE_RTOL, FINE_RTOL = 1e-2, 1e-6  # of the sum of squares in one step
+FAINT_R2 = 0.8  # below, some of a hundred fits to random points end in a false minimum (tests.long.measure faint)
 UNKNOWN_WAVES = 0.25  # one standard deviation of a number that the pictures do not determine
 WIDE = 10, 40  # starts of a model with a map
 WAVES_STEPS = 20
@@ -410,6 +411,15 @@ def _warnings(fit: PointFit, problem: Problem) -> tuple[Message, ...]:
         out.append(
             Message(
                 "{names}: not determined, one standard deviation exceeds {most} waves", names=blind, most=UNKNOWN_WAVES
+            )
+        )
+    explained = float(np.min(fit.r2))
+    if explained < FAINT_R2:
+        out.append(
+            Message(
+                "noise is {share:.0%} of what the picture shows, and a wavefront farther from the true one than these "
+                "errors may hide in it; expose longer, average pictures, or add a focus",
+                share=1 - explained,
             )
         )
     shares = (float(np.sum(model - frame[3]) / frame[2]) for model, frame in zip(fit.modelled, fit.frames, strict=True))
