@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from p2sf.arguments import check_fields, former_names, real_array
-from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope, depth_of
+from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope
 from p2sf.errors import GlassError, RequestError
 from p2sf.lens.lens import (
     Aperture,
@@ -42,7 +42,7 @@ from p2sf.parameters import (
     unit_behind,
 )
 from p2sf.paraxial.first_order import cardinal_points
-from p2sf.paraxial.positions import focused_inside, focused_vergence, lens_at
+from p2sf.paraxial.positions import focused_inside, lens_at
 from p2sf.paraxial.pupils import (
     Stop,
     field_from_image_height,
@@ -52,7 +52,7 @@ from p2sf.paraxial.pupils import (
     rim_radii,
 )
 from p2sf.pupil.mask import CLEAR, MaskSettings, PupilMask
-from p2sf.raytrace.focusing import object_distance, sensor_in_focus
+from p2sf.raytrace.focusing import focused_distance, object_distance, sensor_in_focus
 
 if TYPE_CHECKING:
     from p2sf import Plan, Psf, Stored, Sweep, ToleranceStudy
@@ -468,16 +468,19 @@ class Camera(Settings):
 
 AS_IN_FILE = Camera()
 NEARER = 100.0  # times than what is in focus: metres look a thousand times nearer
+CLOSE_FOCAL_LENGTHS = 5.0  # beyond them, what is that much nearer than the focus may well be meant to be blurred
 
 
 def _check_metres(lens: Lens, far_mm: float) -> None:
     """Raise RequestError where all depths are as near as metres are that are taken for millimetres.
 
-    That is within the front focus, where nothing has a real image, or a hundred times nearer than what is in focus.
+    That is within the front focus, where nothing has a real image, or both close and a hundred times nearer than what
+    is in focus.
     """
-    focus = -float(cardinal_points(lens, lens.reference_wavelength_um).front_focal_distance)
-    sharp = depth_of(focused_vergence(lens))
-    if (isfinite(focus) and far_mm <= focus) or (isfinite(sharp) and NEARER * far_mm < sharp):
+    points = cardinal_points(lens, lens.reference_wavelength_um)
+    focus, close = -float(points.front_focal_distance), CLOSE_FOCAL_LENGTHS * abs(float(points.effective_focal_length))
+    sharp = focused_distance(lens)
+    if (isfinite(focus) and far_mm <= focus) or (isfinite(sharp) and far_mm < min(close, sharp / NEARER)):
         raise RequestError(
             "{parameter} reaches to {far:g} mm, for a lens in focus at {sharp:.4g} mm with its front focus {focus:.4g} "
             "mm before it; give millimetres, 1000 for each metre",

@@ -47,6 +47,13 @@ def test_a_map_of_depths_in_metres_is_named():
     assert camera.photograph(np.ones((12, 16, 3)), 1000 * metres, rtol=0.5).shape == (12, 16, 3)
 
 
+@pytest.mark.parametrize("focus_mm", [None, 2e5])
+def test_a_thing_a_metre_away_may_be_out_of_focus(focus_mm):
+    """At ten focal lengths, by a lens in focus far away, or for infinity to the digits of its file."""
+    camera = p2sf.Camera("double_gauss_28", focus_mm=focus_mm, pixel_um=60, f_number=8)
+    assert camera.photograph(np.ones((6, 8, 3)), 1000.0, rtol=0.5).shape == (6, 8, 3)
+
+
 def test_results_can_be_compared():
     """By hand: the same call twice has the same numbers, and another depth has not."""
     sweeps = [p2sf.Camera(LENS).sweep(depth_mm=[2000, far]).coefficients() for far in (3000, 3000, 4000)]

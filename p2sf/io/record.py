@@ -13,11 +13,11 @@ from p2sf.conventions import NM_PER_UM, depth_of
 from p2sf.files.writing import plain
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
-from p2sf.paraxial.positions import focused_vergence
 from p2sf.paraxial.pupils import Stop, f_number
 from p2sf.psf.record import true_of_all
 from p2sf.psf.result import Psf
 from p2sf.pupil.mask import CLEAR, PupilMask
+from p2sf.raytrace.focusing import focused_vergence
 
 FORMER = {"tolerance": "error"}
 """Fields of files before 0.3 by their names today."""

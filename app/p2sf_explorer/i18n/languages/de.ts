@@ -151,7 +151,6 @@
 <message><source>gain of sharpening</source><translation>Gewinn durch Schärfen</translation></message>
 <message><source>image height</source><translation>Bildhöhe</translation></message>
 <message><source>intensity in the centre over the peak</source><translation>Intensität in der Mitte gegen das Maximum</translation></message>
-<message><source>it has more than {count} bytes</source><translation>sie hat mehr als {count} Bytes</translation></message>
 <message><source>it holds no results of the course</source><translation>sie enthält keine Ergebnisse des Kurses</translation></message>
 <message><source>it is damaged</source><translation>sie ist beschädigt</translation></message>
 <message><source>it was written by another version of the program</source><translation>eine andere Version des Programms hat sie geschrieben</translation></message>
@@ -1263,7 +1262,6 @@
 <message><source>a mirror has no refractive index; ask for that of the medium in front of it</source><translation>ein Spiegel hat keine Brechzahl; nach der des Mediums davor fragen</translation></message>
 <message><source>a non-sequential part</source><translation>ein nicht sequentieller Teil</translation></message>
 <message><source>a number is too large or too small for a lens; correct it</source><translation>eine Zahl ist zu groß oder zu klein für ein Objektiv; berichtigen</translation></message>
-<message><source>a number is too long or lists are nested too deep; this is not a lens file</source><translation>eine Zahl ist zu lang oder Listen sind zu tief verschachtelt; das ist keine Objektivdatei</translation></message>
 <message><source>this blur over a window {width:.3g} µm wide needs {radii} × {directions} pupil samples; bring the sensor nearer to the image, stop down, or show a smaller window</source><translation>diese Unschärfe über ein Fenster von {width:.3g} µm braucht {radii} × {directions} Pupillenproben; den Sensor dem Bild nähern, abblenden oder ein kleineres Fenster zeigen</translation></message>
 <message><source>a phase slope of {slope:.0f} waves over a window of {cycles:.0f} cycles needs {rows} × {columns} pupil samples; bring the sensor nearer to the image, stop down, or show a smaller window</source><translation>eine Phasensteigung von {slope:.0f} Wellen über ein Fenster von {cycles:.0f} Perioden braucht {rows} × {columns} Pupillenproben; den Sensor dem Bild nähern, abblenden oder ein kleineres Fenster zeigen</translation></message>
 <message><source>a picture in ≤ {ms} ms</source><translation>ein Bild in ≤ {ms} ms</translation></message>
@@ -2008,7 +2006,6 @@
 <message><source>surface {surface}: normalisation radius {radius} mm; give a number from {low:g} to {high:g}</source><translation>Fläche {surface}: Normierungsradius {radius} mm; eine Zahl von {low:g} bis {high:g} angeben</translation></message>
 <message><source>surface {surface}: radius {radius} mm; write inf for a plane</source><translation>Fläche {surface}: Radius {radius} mm; inf für eine Ebene schreiben</translation></message>
 <message><source>surface {surface}: semi-diameter {semi_diameter} mm; give a positive number</source><translation>Fläche {surface}: Halbmesser {semi_diameter} mm; eine positive Zahl angeben</translation></message>
-<message><source>surface {surface}: thickness {thickness} mm; give a finite number</source><translation>Fläche {surface}: Dicke {thickness} mm; eine endliche Zahl angeben</translation></message>
 <message><source>surface {surface}: {message}</source><translation>Fläche {surface}: {message}</translation></message>
 <message><source>surface {surface}: {name} differs between x and y; only round lenses are read</source><translation>Fläche {surface}: {name} unterscheidet sich zwischen x und y; nur runde Objektive werden gelesen</translation></message>
 <message><source>surface {surface}: {name} is {found}; write a number</source><translation>Fläche {surface}: {name} ist {found}; eine Zahl schreiben</translation></message>
@@ -2884,5 +2881,16 @@
 <message><source>behind surface {surface}: {words}</source><translation>hinter Fläche {surface}: {words}</translation></message>
 <message><source>surface {surface}: {words}</source><translation>Fläche {surface}: {words}</translation></message>
 <message><source>sensor: {words}</source><translation>Sensor: {words}</translation></message>
+<message><source>a picture {width:.3g} µm wide is {times:.2g} times as wide as the PSF of a perfect lens, λ/(2 NA) of {perfect:.2g} µm, and its fit needs {nodes} pupil samples; check that {wavelength} is in nm and {pixel} in µm, or crop the picture</source><translation>ein {width:.3g} µm breites Bild ist {times:.2g}-mal so breit wie die PSF eines perfekten Objektivs, λ/(2 NA) gleich {perfect:.2g} µm, und die Anpassung braucht {nodes} Pupillenproben; prüfen, ob {wavelength} in nm und {pixel} in µm steht, oder das Bild zuschneiden</translation></message>
+<message><source>aperture {kind} is {value:g}; give a number from {low:g} to {high:g}</source><translation>die Öffnung {kind} ist {value:g}; eine Zahl von {low:g} bis {high:g} angeben</translation></message>
+<message><source>rays from all parts of the pupil arrive in one direction, along one axis at least, so that their light has no focus; move the object or refocus</source><translation>die Strahlen aller Teile der Pupille kommen, zumindest entlang einer Achse, aus einer Richtung an, sodass ihr Licht keinen Fokus hat; das Objekt verschieben oder neu fokussieren</translation></message>
+<message><source>surface {surface} transmits no light; give a share above 0</source><translation>Fläche {surface} lässt kein Licht durch; einen Anteil über 0 angeben</translation></message>
+<message><source>surface {surface}: thickness {thickness} mm; give a number from {low:g} to {high:g}</source><translation>Fläche {surface}: Dicke {thickness} mm; eine Zahl von {low:g} bis {high:g} angeben</translation></message>
+<message><source>the line has over {count} letters; break it</source><translation>die Zeile hat über {count} Zeichen; sie umbrechen</translation></message>
+<message><source>{count} pixels have the highest count, {top:g}, side by side: they were clipped, and do not count; expose less, or state the full scale</source><translation>{count} Pixel haben den höchsten Wert, {top:g}, nebeneinander: Sie wurden abgeschnitten und zählen nicht; kürzer belichten oder den Höchstwert des Sensors angeben</translation></message>
+<message><source>{parameter} is {value}; give the least or the most of figures by name, such as {example}; tolerances are those of a grade</source><translation>{parameter} ist {value}; das Mindeste oder Höchste von Größen mit Namen angeben, etwa {example}; die Toleranzen sind die einer Güteklasse</translation></message>
+<message><source>{parameter} reaches to {far:g} mm, for a lens in focus at {sharp:.4g} mm with its front focus {focus:.4g} mm before it; give millimetres, 1000 for each metre</source><translation>{parameter} reicht bis {far:g} mm, bei einem Objektiv, das auf {sharp:.4g} mm fokussiert ist und dessen vorderer Brennpunkt {focus:.4g} mm davor liegt; Millimeter angeben, 1000 je Meter</translation></message>
+<message><source>{path} cannot be read, {reason}; save it smaller, or as a TIFF</source><translation>{path} lässt sich nicht lesen, {reason}; kleiner oder als TIFF speichern</translation></message>
+<message><source>{reason}; this is not a lens file</source><translation>{reason}; das ist keine Objektivdatei</translation></message>
 </context>
 </TS>
