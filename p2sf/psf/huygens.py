@@ -8,7 +8,7 @@ See handbook 5.5.
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import lru_cache, partial
 from math import inf, sqrt
 from time import perf_counter
 from typing import Any
@@ -279,6 +279,13 @@ def first_counts(
     return counts
 
 
+def nodes_from(lens: Lens, source: Source, reach_um: float, sphere: ExitSphere) -> int:
+    """Return about how many nodes spherical waves take, the mirror half not counted, without following any rim."""
+    rays, points = coarse_pencil(lens, source, PROBE), coarse_points(lens.pupil_domain)
+    steep = _in_window(sphere.seen_from(rays)[0], *points, reach_um)
+    return _nodes(counts_for(with_slopes(steep, lens.mask, source.wavelength_um), reach_um))
+
+
 def _steepness(lens: Lens, source: Source, reach_um: float, clip: bool, sphere: ExitSphere | None = None) -> Steepness:
     """Return how steep the phase is over the part of the pupil that is summed; where rays end, about its middle.
 
@@ -290,8 +297,7 @@ def _steepness(lens: Lens, source: Source, reach_um: float, clip: bool, sphere: 
         rays = coarse_pencil(lens, source, PROBE)
         seen, slopes = rays if sphere is None else sphere.seen_from(rays)[0], coarse_slopes(lens, source, sphere)
         return _in_window(seen, *coarse_points(lens.pupil_domain), reach_um, slopes)
-    nodes = _nodes_of(lens, source, PROBE, clip)
-    rays = rays_through(lens, source, nodes)
+    nodes, rays = _outlined_pencil(lens, source, clip)
     weight = np.where(rays.passed, nodes.weight, 0.0)
     share = np.maximum(weight, 0.0) / np.maximum(weight, 0.0).sum()  # without holes, which have weights below 0
     aside, up = float(nodes.domain.mean_across(share, nodes.xi)), float(share @ nodes.eta)
@@ -301,6 +307,13 @@ def _steepness(lens: Lens, source: Source, reach_um: float, clip: bool, sphere: 
     xi, eta = nodes.xi - aside, nodes.eta - up
     size = np.hypot(xi, eta)[rays.passed].max()
     return _in_window(replace(rays, chief_kx=middle.kx, chief_ky=middle.ky), xi / size, eta / size, reach_um)
+
+
+@lru_cache(maxsize=4)
+def _outlined_pencil(lens: Lens, source: Source, clip: bool) -> tuple[ClearNodes, Rays]:
+    """Return coarse nodes up to where rays end, and their rays: a second of work where much is lost."""
+    nodes = _nodes_of(lens, source, PROBE, clip)
+    return nodes, rays_through(lens, source, nodes)
 
 
 def _in_window(

@@ -12,7 +12,7 @@ from time import perf_counter
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM
-from p2sf.errors import GeometryError, P2SFError, RequestError, SamplingError
+from p2sf.errors import GeometryError, P2SFError, RequestError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message
@@ -20,7 +20,7 @@ from p2sf.paraxial.seidel import Coefficients, check_seidel, coefficients, reaso
 from p2sf.psf.fitted import MOST_NODES as MOST_FITTED
 from p2sf.psf.fitted import NodesOf, psf_of_fit
 from p2sf.psf.gaussian_fit import gaussian_psf
-from p2sf.psf.huygens import LAST_PASS, RayPupil, Watch, blur_um2, first_counts, sum_rays
+from p2sf.psf.huygens import LAST_PASS, RayPupil, Watch, blur_um2, nodes_from, sum_rays
 from p2sf.psf.huygens import MOST_NODES as MOST_RAYS
 from p2sf.psf.prediction import EDGE_ERROR, SAFETY, TRACED_ERROR, USELESS, predicted_error, seidel_sigma
 from p2sf.psf.result import Psf
@@ -243,17 +243,14 @@ def choose(
 
 def _sphere_is_affordable(lens: Lens, source: Source, clip: bool, window: tuple[int, float] | None) -> bool:
     """Return whether a sum of spherical waves with one column takes AUTO_SECONDS at most; False without a sphere."""
-    half = half_window_um(lens, source) if window is None else window[0] * window[1] / 2
     smooth = not clip and mask_seen(lens, source).clear and all_reach(lens, source)
     most = AUTO_SECONDS / (2 * TERM_SECONDS) if smooth else AUTO_SECONDS * LAST_PASS / RAY_SECONDS
     try:
+        half = half_window_um(lens, source) if window is None else window[0] * window[1] / 2
         sphere = exit_sphere(lens, source)
-        if sphere is None:
-            return False
-        first_counts(lens, source, hypot(half, half), clip, int(most), sphere)
-    except (GeometryError, SamplingError):
+        return sphere is not None and nodes_from(lens, source, hypot(half, half), sphere) <= most
+    except GeometryError:
         return False
-    return True
 
 
 def _choose_plane(lens: Lens, source: Source, clip: bool, rays: Rays, steep: Steepness, allowed: float) -> Choice:
