@@ -16,16 +16,21 @@ from p2sf.export.fits import METRES_PER_UM, axis_keywords, write_image
 from p2sf.export.psf_set import PsfSet
 from p2sf.export.tiff import write_pages
 from p2sf.files.writing import plain, write_beside
+from p2sf.io.fits_psf import META
 from p2sf.psf.record import CONVENTIONS
 from p2sf.version import program_version
 
 PathLike = str | os.PathLike[str]
+Meta = dict[str, Any]
 
 
-def write_psf_set(psfs: PsfSet, path: PathLike) -> Path:
-    """Write a set by the ending of ``path``, whole or not at all; ExportError."""
+def write_psf_set(psfs: PsfSet, path: PathLike, meta: dict[str, Any] | None = None) -> Path:
+    """Write a set by the ending of ``path``, whole or not at all; ExportError.
+
+    ``meta``, any facts as JSON has them, is stored with it, but not in a .csv, a table alone, and a .mat.
+    """
     check_set_ending(path)
-    return WRITERS[Path(path).suffix.lower()](psfs, path)
+    return WRITERS[Path(path).suffix.lower()](psfs, path, plain(meta or {}))
 
 
 def check_set_ending(path: PathLike) -> None:
@@ -69,25 +74,25 @@ def arrays(psfs: PsfSet) -> dict[str, np.ndarray]:
     }
 
 
-def _write_npz(psfs: PsfSet, path: PathLike) -> Path:
-    meta = np.array(json.dumps(plain(about(psfs)), ensure_ascii=False))
-    found: dict[str, Any] = {**arrays(psfs), "method": psfs.methods, "meta": meta}
+def _write_npz(psfs: PsfSet, path: PathLike, meta: Meta) -> Path:
+    text = np.array(json.dumps(plain(about(psfs)) | meta, ensure_ascii=False))
+    found: dict[str, Any] = {**arrays(psfs), "method": psfs.methods, "meta": text}
     return write_beside(path, lambda handle: np.savez_compressed(handle, **found))
 
 
-def _write_mat(psfs: PsfSet, path: PathLike) -> Path:
+def _write_mat(psfs: PsfSet, path: PathLike, _: Meta) -> Path:
     from scipy.io import savemat
 
     found = {**arrays(psfs), "method": psfs.methods.astype(object), "meta": plain(about(psfs))}
     return write_beside(path, lambda handle: savemat(handle, found, do_compression=True, oned_as="row"))
 
 
-def _write_tiff(psfs: PsfSet, path: PathLike) -> Path:
+def _write_tiff(psfs: PsfSet, path: PathLike, meta: Meta) -> Path:
     figures = {name: plain(values) for name, values in arrays(psfs).items() if name != "psf"}
-    return write_pages(psfs, path, {**about(psfs), **figures, "method": psfs.methods.tolist()})
+    return write_pages(psfs, path, {**about(psfs), **meta, **figures, "method": psfs.methods.tolist()})
 
 
-def _write_fits(psfs: PsfSet, path: PathLike) -> Path:
+def _write_fits(psfs: PsfSet, path: PathLike, meta: Meta) -> Path:
     header: list[tuple[str, object, str]] = [
         ("PIXELSCL", psfs.pixel_um * METRES_PER_UM, "[m] sensor pitch per pixel"),
         ("PIXUNIT", "meter", "unit of PIXELSCL"),
@@ -98,13 +103,14 @@ def _write_fits(psfs: PsfSet, path: PathLike) -> Path:
         ("INSTRUME", psfs.lens.name[:60], "lens"),
         ("AIM", psfs.lens.aim, "exact rays fill the stop/paraxial pupil"),
         ("CREATOR", f"p2sf {program_version()}", "software"),
+        (META, json.dumps(plain(about(psfs)) | meta), "facts as JSON"),
     ]
     rows = table(psfs)
     columns = {str(name): np.array([row[k] for row in rows[1:]]) for k, name in enumerate(rows[0])}
     return write_image(psfs, path, header, {"FIGURES": columns})
 
 
-def _write_csv(psfs: PsfSet, path: PathLike) -> Path:
+def _write_csv(psfs: PsfSet, path: PathLike, _: Meta) -> Path:
     text = io.StringIO()
     csv.writer(text, lineterminator="\n").writerows(table(psfs))
     return write_beside(path, lambda handle: handle.write(text.getvalue().encode()))
@@ -136,7 +142,8 @@ def moments(values: np.ndarray, pixel_um: float) -> tuple[float, float, float]:
     return x, y, float(square) ** 0.5
 
 
-WRITERS: dict[str, Callable[[PsfSet, PathLike], Path]] = {
+HOLDING = (".npz", ".tif", ".tiff", ".fits")  # the ``meta`` of `write_psf_set`
+WRITERS: dict[str, Callable[[PsfSet, PathLike, Meta], Path]] = {
     ".npz": _write_npz,
     ".tif": _write_tiff,
     ".tiff": _write_tiff,

@@ -78,6 +78,14 @@ def first_picture(path: str | os.PathLike[str]) -> tuple[np.ndarray, Any]:
     raise ValueError("no picture in it")
 
 
+def read_meta(path: str | os.PathLike[str]) -> Any:
+    """Return the facts in the header of a FITS file that this program wrote, as JSON has them.
+
+    Raises as `first_picture`, and KeyError for another file.
+    """
+    return parse_json(first_picture(path)[1][META])
+
+
 def _astropy() -> Any:
     try:
         from astropy.io import fits

@@ -1,9 +1,11 @@
 """Readers and writers of pictures; everywhere else a picture is linear light in float32."""
 
 import io
+import json
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import reduce
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from types import ModuleType
@@ -17,6 +19,7 @@ from p2sf.files.atomic import DAMAGED
 from p2sf.files.reading import OversizedError, check_samples, check_unpacked, first_page, open_file, size_of
 from p2sf.files.writing import write_beside
 from p2sf.io.png16 import is_deep, read_deep, write_deep
+from p2sf.io.png_text import with_text
 from p2sf.io.transfer import check_encoding, linear_from_srgb, srgb_from_linear
 from p2sf.messages import Alternatives, Message
 
@@ -86,13 +89,18 @@ def read_photo(path: str | os.PathLike[str], encoding: str | None = None) -> Pho
 
 
 def write_photo(
-    path: str | os.PathLike[str], values: np.ndarray, encoding: str = "srgb", depth: str | None = None
+    path: str | os.PathLike[str],
+    values: np.ndarray,
+    encoding: str = "srgb",
+    depth: str | None = None,
+    texts: Mapping[str, str] | None = None,
 ) -> Path:
     """Write linear light (rows, columns[, channels]) as .png (8, 16 bits), .tif (any depth) or .exr (half or float).
 
     ``depth``: bits of whole numbers, or "half" and "float" for floats of 16 and 32 bits; 8 by default, float for a
     linear TIFF and for OpenEXR, which is always linear. Values beyond 0…1 are clipped in whole numbers.
-    Raises ExportError and RequestError.
+    ``texts``, by names of letters and "-", are stored in the file: as text chunks of a PNG, as attributes of an
+    OpenEXR, and as JSON in the description of a TIFF. Raises ExportError and RequestError.
     """
     check_encoding(encoding)
     ending = check_ending(path)
@@ -109,8 +117,8 @@ def write_photo(
     values = srgb_from_linear(values) if encoding == "srgb" else values
     stored = values.astype(np.float16 if depth == "half" else np.float32) if floats else _whole(values, int(depth))
     if ending == EXR:
-        return write_beside(path, lambda handle: handle.write(_exr(stored)))
-    return write_beside(path, lambda handle: handle.write(_encode(stored, ending)))
+        return write_beside(path, lambda handle: handle.write(_exr(stored, texts or {})))
+    return write_beside(path, lambda handle: handle.write(_encode(stored, ending, texts or {})))
 
 
 def stored_as(path: str | os.PathLike[str], encoding: str) -> str:
@@ -141,7 +149,7 @@ def check_ending(path: str | os.PathLike[str]) -> str:
             choices=WRITABLE,
         )
     if ending == EXR:
-        _exr_library(path)
+        exr_library(path)
     return ending
 
 
@@ -151,18 +159,24 @@ def _whole(values: np.ndarray, bits: int) -> np.ndarray:
     return whole.astype(np.uint8 if bits == 8 else np.uint16)
 
 
-def _encode(stored: np.ndarray, ending: str) -> bytes:
-    if ending == ".png" and stored.dtype == np.uint16:
-        return write_deep(stored)
-    buffer = io.BytesIO()
+def _encode(stored: np.ndarray, ending: str, texts: Mapping[str, str]) -> bytes:
     if ending == ".png":
-        from PIL import Image
+        return reduce(lambda png, item: with_text(png, *item), texts.items(), _png(stored))
+    import tifffile
 
-        Image.fromarray(stored).save(buffer, format="PNG")
-    else:
-        import tifffile
+    buffer, photometric = io.BytesIO(), "rgb" if stored.ndim == 3 else "minisblack"
+    about: dict[str, Any] = {"description": json.dumps(dict(texts)), "metadata": None} if texts else {}
+    tifffile.imwrite(buffer, stored, photometric=photometric, **about)
+    return buffer.getvalue()
 
-        tifffile.imwrite(buffer, stored, photometric="rgb" if stored.ndim == 3 else "minisblack")
+
+def _png(stored: np.ndarray) -> bytes:
+    if stored.dtype == np.uint16:
+        return write_deep(stored)
+    from PIL import Image
+
+    buffer = io.BytesIO()
+    Image.fromarray(stored).save(buffer, format="PNG")
     return buffer.getvalue()
 
 
@@ -271,7 +285,7 @@ def _let_pillow_open_heif(path: str | os.PathLike[str]) -> None:
     pillow_heif(path).register_heif_opener()
 
 
-def _exr_library(path: str | os.PathLike[str]) -> ModuleType:
+def exr_library(path: str | os.PathLike[str]) -> ModuleType:
     """Return the library of OpenEXR; RequestError where it is not installed."""
     try:
         import OpenEXR
@@ -287,7 +301,7 @@ def _exr_library(path: str | os.PathLike[str]) -> ModuleType:
 
 def _from_exr(path: Path, size: int) -> np.ndarray:
     """Return the colours of an OpenEXR file, or its grey values or depths, (rows, columns[, 3]) float16 or float32."""
-    library = _exr_library(path)
+    library = exr_library(path)
     try:
         with library.File(str(path), header_only=True) as head:
             first, last = (np.asarray(end, int) for end in head.header()["dataWindow"])
@@ -311,12 +325,12 @@ def _from_exr(path: Path, size: int) -> np.ndarray:
     return np.asarray(grey[0])
 
 
-def _exr(stored: np.ndarray) -> bytes:
+def _exr(stored: np.ndarray, texts: Mapping[str, str]) -> bytes:
     """Return an OpenEXR file of (rows, columns[, 3]) float16 or float32, compressed without loss."""
     with TemporaryDirectory() as folder:  # the library writes to paths only
         path = Path(folder) / "picture.exr"
-        library = _exr_library(path)
-        header = {"compression": library.ZIP_COMPRESSION, "type": library.scanlineimage}
+        library = exr_library(path)
+        header = {**texts, "compression": library.ZIP_COMPRESSION, "type": library.scanlineimage}
         channels = {"RGB" if stored.ndim == 3 else "Y": np.ascontiguousarray(stored)}
         with library.File(header, channels) as file:
             file.write(str(path))

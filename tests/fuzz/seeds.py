@@ -13,11 +13,12 @@ from p2sf.database import Space, build_database
 from p2sf.database.files.npz import MARK, database_bytes
 from p2sf.database.files.sealed import seal
 from p2sf.io.photo_files import write_photo
+from p2sf.io.png_text import with_text
 from p2sf.io.psf_files import write_psf
 from p2sf.lensfile.library import find_lens, lenses_folder
 from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.psf.seidel import seidel_psf
-from p2sf_explorer.files.embedded_state import with_state
+from p2sf_explorer.files.embedded_state import KEYWORD
 from p2sf_explorer.lessons.lesson import lesson_files
 from p2sf_explorer.state.link import link
 from p2sf_explorer.state.state import State, change
@@ -83,7 +84,7 @@ def psf_files() -> list[bytes]:
             path = write_psf(psf, Path(folder) / f"psf{ending}", {"state": "{}"})
             found.append(bytes([number]) + path.read_bytes())
     Image.new("L", (8, 8)).save(picture, "PNG")
-    return [*found, b"\x00" + with_state(picture.getvalue(), "{}")]
+    return [*found, b"\x00" + with_text(picture.getvalue(), KEYWORD, "{}")]
 
 
 @cache

@@ -44,7 +44,7 @@ NOISE = np.random.default_rng(1).random((64, 64))
 DATABASE = build_database(LENS, Space((500.0, np.inf), (0.0, 0.1), (0.5, 0.6)), "exact")
 LIMIT = 2000
 MOST_LOST = 1.0  # s, of what was done before a kill
-OLD = b"what was here before"
+OLD = b'{"schema": "p2sf-explorer-state", "why": "only a state may take the place of a state"}'
 
 
 def writers(folder: Path, version: int) -> dict:

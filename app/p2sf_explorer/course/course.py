@@ -14,6 +14,7 @@ from p2sf_explorer.course.course_list import CourseList
 from p2sf_explorer.course.lectures import course_version, task_keys
 from p2sf_explorer.course.results_table import read_folder
 from p2sf_explorer.course.results_window import ResultsWindow
+from p2sf_explorer.files.asking import ask_path
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.lessons.controller import LessonController
 from p2sf_explorer.lessons.task_record import write_result
@@ -66,11 +67,8 @@ class Course(QObject):
         if not (given and name.strip()):
             return
         first = f"{'_'.join(name.split())}.json"
-        path, _ = QFileDialog.getSaveFileName(
-            self._window, tr("Save my results of the course…"), first, "JSON (*.json)"
-        )
-        if path:
-            self.save(name, Path(path if Path(path).suffix else f"{path}.json"))
+        if path := ask_path(self._window, tr("Save my results of the course…"), first, "JSON (*.json)"):
+            self.save(name, Path(path))
 
     def save(self, name: str, path: Path) -> None:
         """Write the results under a name."""

@@ -7,7 +7,6 @@ from pathlib import Path
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (
     QDialog,
-    QFileDialog,
     QHBoxLayout,
     QLabel,
     QPushButton,
@@ -20,6 +19,7 @@ from p2sf.errors import P2SFError
 from p2sf.messages import Message
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.course.results_table import ResultTable, concept_gain, write_table
+from p2sf_explorer.files.asking import ask_path
 from p2sf_explorer.i18n.messages import WINDOW
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.lessons.task_record import JOINT, CourseResult, TaskRecord
@@ -102,9 +102,8 @@ class ResultsWindow(QDialog):
 
     def ask_save(self) -> None:
         """Ask for a name and write the table as CSV."""
-        path, _ = QFileDialog.getSaveFileName(self, tr("Save as CSV…"), "results.csv", "CSV (*.csv)")
-        if path:
-            self.write(Path(path if Path(path).suffix else f"{path}.csv"))
+        if path := ask_path(self, tr("Save as CSV…"), "results.csv", "CSV (*.csv)"):
+            self.write(Path(path))
 
     def write(self, path: Path) -> None:
         """Write the table as CSV."""

@@ -11,9 +11,9 @@ from p2sf_explorer.compute.lens_files import import_of
 from p2sf_explorer.compute.setup import with_lens
 from p2sf_explorer.files.embedded_state import foreign, state_inside
 from p2sf_explorer.state.state import State, change
-from p2sf_explorer.state.state_files import SCHEMA, read_state
+from p2sf_explorer.state.state_files import is_state, read_state
 
-SNAPSHOTS = "*.png *.npz *.tiff *.fits *.csv"
+SNAPSHOTS = "*.png *.npz *.tif *.tiff *.fits *.csv *.exr"
 KINDS = (
     f"Lenses, states, snapshots (*.toml *.zmx *.zar *.zip *.seq *.len *.roa *.fx *.json *.dat *.txt {SNAPSHOTS});;"
     "P2SF lens (*.toml);;Zemax (*.zmx *.zar *.zip);;CODE V (*.seq);;OSLO (*.len);;ray-optics (*.roa);;"
@@ -21,7 +21,6 @@ KINDS = (
     "Renderer's lens (*.fx);;Optical Bench or table (*.txt *.csv);;"
     f"Snapshot ({SNAPSHOTS});;All files (*)"
 )
-HEAD = 4096  # a state names its schema in its first lines
 OWN_FORMAT = "P2SF lens (TOML)"
 REPORT_TAB = "import"
 
@@ -51,16 +50,6 @@ def open_file(state: State, path: str) -> State:
         raise LensFileError(reason, path)
     fresh = with_lens(state, path)
     return fresh if import_of(path).report.format == OWN_FORMAT else change(fresh, tab=REPORT_TAB)
-
-
-def is_state(path: str) -> bool:
-    """Return whether a file says that it is a state of the explorer."""
-    try:
-        with open(path, "rb") as stream:
-            head = stream.read(HEAD)
-    except OSError:
-        return False  # the reader of lenses says why it cannot be read
-    return head.lstrip().startswith(b"{") and SCHEMA.encode() in head
 
 
 def refusal(path: str, error: P2SFError) -> Refusal:

@@ -2,12 +2,13 @@
 
 from pathlib import Path
 
-from PySide6.QtWidgets import QFileDialog, QWidget
+from PySide6.QtWidgets import QWidget
 
 from p2sf.errors import P2SFError
 from p2sf.lensfile.writing import write_lens
 from p2sf.messages import Message
 from p2sf_explorer.compute.setup import built_lens
+from p2sf_explorer.files.asking import ask_path
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.state import change
 from p2sf_explorer.store.store import Store
@@ -35,6 +36,5 @@ def save_lens(store: Store, path: str) -> bool:
 def ask_save_lens(parent: QWidget, store: Store) -> None:
     """Ask for a name and save the lens."""
     first = f"{Path(store.state.optics.lens).stem}.toml"
-    path, chosen = QFileDialog.getSaveFileName(parent, tr("Save the lens"), first, tr(KINDS))
-    if path:
-        save_lens(store, path if Path(path).suffix else path + chosen.split("*")[1].rstrip(")"))
+    if path := ask_path(parent, tr("Save the lens"), first, tr(KINDS)):
+        save_lens(store, path)

@@ -1,4 +1,4 @@
-"""What a snapshot writes: the PSF's data or a picture, the state that made it inside and beside. No Qt in here."""
+"""What a snapshot writes: the PSF's data or a picture, with the state that made it inside. No Qt in here."""
 
 import os
 from collections.abc import Callable
@@ -8,35 +8,85 @@ from typing import Any
 
 from p2sf.errors import ExportError
 from p2sf.files.writing import write_beside
+from p2sf.io.png_text import with_text
 from p2sf.io.psf_files import write_psf
 from p2sf.io.record import describe
+from p2sf.messages import Message
 from p2sf.psf.methods import psf_of
 from p2sf.psf.pixel_integrals import critical_pixel_um, fine_side, integrate, samples_across
 from p2sf.psf.record import versions
 from p2sf.psf.result import Psf
+from p2sf_explorer.compute.lens_files import is_file
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import request_setup
-from p2sf_explorer.files.embedded_state import with_state
+from p2sf_explorer.files.embedded_state import ENTRY, KEYWORD, MOST
 from p2sf_explorer.state.state import State, change
-from p2sf_explorer.state.state_files import state_to_json
+from p2sf_explorer.state.state_files import is_state, state_to_json
 
 PathLike = str | os.PathLike[str]
 DATA_ENDINGS = (".npz", ".tiff", ".fits", ".csv")
 
 
-def side_car(path: PathLike) -> Path:
-    """Return where the state of a snapshot lies: beside it, the same name with .json."""
-    return Path(path).with_suffix(".json")
-
-
 def write_state(state: State, path: PathLike, **extra: object) -> Path:
-    """Write a state file that ``p2sf explore`` opens again; a lens given by a relative path is made absolute."""
-    text = state_to_json(_portable(state), versions=versions(), **extra)
+    """Write a state file that ``p2sf explore`` opens again; a lens given by a relative path is made absolute.
+
+    Raises ExportError where it cannot be written, and for the place of a file that is no state.
+    """
+    check_state_place(path)
+    text = state_text(state, **extra)
     return write_beside(path, lambda handle: handle.write(text.encode()))
 
 
-def write_data(live: Live | None, path: PathLike, state: State | None = None) -> tuple[Path, Path]:
-    """Write the PSF on screen as .npz, .tiff, .fits or .csv and its state beside; return both paths. ExportError.
+def state_text(state: State, **extra: object) -> str:
+    """Return the text of a state for a file of its own or within another; ExportError for more than can be read."""
+    path = Path(state.optics.lens)
+    portable = change(state, lens=str(path.resolve())) if path.is_file() else state
+    text = state_to_json(portable, versions=versions(), **extra)
+    if len(text) > MOST:
+        raise ExportError(
+            "the lens takes {size:.3g} MB of text, of which {most:g} MB can be kept with what is on screen; save the "
+            "lens as a file (Ctrl+Shift+S) and open that",
+            size=len(text) / 1e6,
+            most=MOST / 1e6,
+        )
+    return text
+
+
+def check_state_place(path: PathLike) -> None:
+    """Raise ExportError where a state would take the place of a file that is none, such as a lens."""
+    if os.path.lexists(path) and not is_state(path):
+        raise ExportError(
+            "{path} is there already and is no state of the explorer; choose another name, or move that file",
+            path=str(path),
+        )
+
+
+def state_beside(path: PathLike) -> Path:
+    """Return where the state of a file lies that cannot hold it."""
+    return Path(f"{os.fspath(path)}.state.json")
+
+
+def saved(path: PathLike, holds: bool = True) -> Message:
+    """Return that a file was saved, and where its state is: in it, where it ``holds`` one, or beside it."""
+    name = Path(path).name
+    if holds:
+        return Message("Saved {name}, with the state in it", name=name)
+    return Message("Saved {name}, and its state as {beside}", name=name, beside=state_beside(path).name)
+
+
+def check_snapshot(state: State, path: PathLike) -> None:
+    """Raise ExportError where a file would take the place of one that the state names: its lens, a photo, a map."""
+    names = [state.optics.lens, state.photo.source, state.photo.depths, state.measured.picture]
+    if state.compare.pinned:
+        names.append(state.compare.pinned.optics.lens)
+    if any(is_file(name) and os.path.exists(path) and os.path.samefile(name, path) for name in names):
+        raise ExportError(
+            "{path} is open, and what is on screen would be lost with it; choose another name", path=str(path)
+        )
+
+
+def write_data(live: Live | None, path: PathLike, state: State | None = None) -> Path:
+    """Write the PSF on screen as .npz, .tiff, .fits or .csv with its state; return the path. ExportError.
 
     ``state`` is the window's where that is more than the picture's own: B may be pinned beside it.
     """
@@ -50,9 +100,9 @@ def write_data(live: Live | None, path: PathLike, state: State | None = None) ->
             ending=Path(path).suffix,
             endings=DATA_ENDINGS,
         )
-    meta = {**describe(request_setup(live.state)), "state": _entries(state)}
-    written = _writer(path)(light_of(live), path, meta)
-    return written, write_state(state, side_car(path), exported=Path(path).name)
+    check_snapshot(state, path)
+    meta = {**describe(request_setup(live.state)), ENTRY: state_text(state)}
+    return _writer(path)(light_of(live), path, meta)
 
 
 def light_of(live: Live) -> Psf:
@@ -83,23 +133,14 @@ def _writer(path: PathLike) -> Callable[[Psf, PathLike, dict[str, Any]], Path]:
     return write_psf_fits
 
 
-def write_picture(state: State, png: bytes, path: PathLike) -> tuple[Path, Path]:
-    """Write a picture already encoded as PNG and its state beside; return both paths. ExportError."""
+def write_picture(state: State, png: bytes, path: PathLike) -> Path:
+    """Write a picture already encoded as PNG with its state; return the path. ExportError."""
     if Path(path).suffix.lower() != ".png":
         raise ExportError(
             '{path}: a picture of the window ends in ".png", not "{ending}"; change the ending',
             path=str(path),
             ending=Path(path).suffix,
         )
-    whole = with_state(png, _entries(state))
-    written = write_beside(path, lambda handle: handle.write(whole))
-    return written, write_state(state, side_car(path), exported=Path(path).name)
-
-
-def _entries(state: State) -> str:
-    return state_to_json(_portable(state))
-
-
-def _portable(state: State) -> State:
-    path = Path(state.optics.lens)
-    return change(state, lens=str(path.resolve())) if path.is_file() else state
+    check_snapshot(state, path)
+    whole = with_text(png, KEYWORD, state_text(state))
+    return write_beside(path, lambda handle: handle.write(whole))

@@ -41,6 +41,7 @@ from p2sf_explorer.compute.views.measured import (
     with_file_date,
     write_sample,
 )
+from p2sf_explorer.files.asking import ask_path
 from p2sf_explorer.files.recent import recent_path
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import local, tr
@@ -290,11 +291,8 @@ class MeasuredPanel:
             self.open_picture(path)
 
     def _ask_save(self) -> None:
-        path, _ = QFileDialog.getSaveFileName(
-            self.widget, tr("Save the measurement"), "coefficients.npz", "npz (*.npz)"
-        )
-        if path:
-            self.save_as(path if Path(path).suffix else f"{path}.npz")
+        if path := ask_path(self.widget, tr("Save the measurement"), "coefficients.npz", "npz (*.npz)"):
+            self.save_as(path)
 
     def save_as(self, path: str) -> None:
         """Write the measurement; say why it cannot be written."""
@@ -306,9 +304,8 @@ class MeasuredPanel:
             self._store.refused.emit(error.message)
 
     def _ask_built(self) -> None:
-        path, chosen = QFileDialog.getSaveFileName(self.widget, tr("Save the lens as built"), "built.toml", tr(BUILT))
-        if path:
-            self.save_built(path if Path(path).suffix else path + chosen.split("*")[1].rstrip(")"))
+        if path := ask_path(self.widget, tr("Save the lens as built"), "built.toml", tr(BUILT)):
+            self.save_built(path)
 
     def save_built(self, path: str) -> None:
         """Write the lens as built; say what it leaves out, or why it cannot be written."""

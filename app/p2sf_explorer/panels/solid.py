@@ -4,12 +4,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QProcess, QTimer
-from PySide6.QtWidgets import QFileDialog, QPushButton
+from PySide6.QtWidgets import QPushButton
 
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.files.asking import ask_path
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.scene3d import opengl_probe as probe
 from p2sf_explorer.scene3d.scene import Scene3D
@@ -127,9 +128,8 @@ class SolidPanel:
 
     def _ask_save(self) -> None:
         first = f"{Path(self._store.state.optics.lens).stem}.png"
-        path, chosen = QFileDialog.getSaveFileName(self.widget, tr("Save the 3D view"), first, tr(FILES))
-        if path:
-            self.save(path if Path(path).suffix else path + chosen.split("*")[1].rstrip(")"))
+        if path := ask_path(self.widget, tr("Save the 3D view"), first, tr(FILES)):
+            self.save(path)
 
 
 def load_renderer() -> "type[Renderer] | None":

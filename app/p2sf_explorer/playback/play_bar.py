@@ -7,7 +7,6 @@ from PySide6.QtCore import QSize
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QBoxLayout,
-    QFileDialog,
     QFrame,
     QHBoxLayout,
     QLabel,
@@ -20,6 +19,7 @@ from PySide6.QtWidgets import (
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
 from p2sf_explorer.compute.views.tolerances import ToleranceQuestion, ToleranceResult
+from p2sf_explorer.files.asking import ask_path
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.playback.builds import BUILDS_PER_S, moments_of_builds
 from p2sf_explorer.playback.filming import FRAMES_PER_S, Filming, moments_of_sweep
@@ -211,8 +211,7 @@ class PlayBar(QFrame):
     def _asked_path(self, what: str) -> str:
         """Return where a person wants the film of something, "" for nowhere."""
         first = f"{Path(self._store.state.optics.lens).stem}_{what}.gif"
-        path, chosen = QFileDialog.getSaveFileName(self.window(), tr("Save a film"), first, tr(FILMS))
-        return path + chosen.split("*")[1].rstrip(")") if path and not Path(path).suffix else path
+        return ask_path(self.window(), tr("Save a film"), first, tr(FILMS))
 
     def film(self, path: str) -> bool:
         """Film the sweep to a file; return whether it began."""

@@ -7,11 +7,12 @@ from math import inf
 from typing import Any
 
 from p2sf.errors import P2SFError
-from p2sf.files.reading import read_text
+from p2sf.files.reading import open_file, read_text
 from p2sf.messages import Message
 from p2sf_explorer.state.state import ENTRIES, FIRST, State
 
 SCHEMA = "p2sf-explorer-state"
+HEAD = 4096  # bytes of a file, in whose first lines a state names its schema
 THE_STATE = Message("the state")
 VERSION = 6
 """1 was one flat table, 2 had no aim, 3 no stage, 4 no mask, rings, tolerances, errors, 5 no choices of panels."""
@@ -157,6 +158,16 @@ def check_version(found: object, where: str | Message) -> None:
             found=str(found),
             version=VERSION,
         )
+
+
+def is_state(path: str | os.PathLike[str]) -> bool:
+    """Return whether a file says that it is a state of the explorer."""
+    try:
+        with open_file(path) as stream:
+            head = stream.read(HEAD)
+    except (OSError, ValueError):
+        return False  # the reader of lenses says why it cannot be read
+    return head.lstrip().startswith(b"{") and SCHEMA.encode() in head
 
 
 def read_state(path: str | os.PathLike[str]) -> State:

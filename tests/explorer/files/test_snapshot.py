@@ -14,6 +14,7 @@ from p2sf.database import Space, build_database, depth_nodes
 from p2sf.database.files import save_database
 from p2sf.errors import LensFileError
 from p2sf.io.fits_psf import read_psf_fits
+from p2sf.io.png_text import HEADER, with_text
 from p2sf.io.psf_files import read_psf, write_psf
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml.lens import lens_to_toml
@@ -22,11 +23,10 @@ from p2sf.psf.seidel import seidel_psf
 from p2sf_explorer.application.display import NO_DISPLAY, display_problem
 from p2sf_explorer.application.main import starting_state
 from p2sf_explorer.compute.live import live
-from p2sf_explorer.files.embedded_state import PNG_HEADER, foreign, state_inside, with_state
+from p2sf_explorer.files.embedded_state import KEYWORD, foreign, state_inside, text_inside
 from p2sf_explorer.files.opening import open_file
 from p2sf_explorer.files.snapshot import DATA_ENDINGS, write_data
 from p2sf_explorer.state.state import State, new_state
-from p2sf_explorer.state.state_files import read_state
 from p2sf_explorer.widgets.copying import png_of
 from tests.explorer.conftest import FIRST
 from tests.support.waves import waves
@@ -39,15 +39,15 @@ def busy(window):
 
 
 @pytest.mark.parametrize("ending", [".npz", ".tiff", ".csv", ".png", ".json"])
-def test_the_state_beside_a_snapshot_reopens_identically(busy, tmp_path, ending):
+def test_a_snapshot_alone_reopens_identically(busy, tmp_path, ending):
     path = tmp_path / f"shot{ending}"
     busy.store.update(theme="dark" if ending == ".json" else "light")
     assert busy.commands.save(str(path))
-    assert path.stat().st_size > 0
-    assert starting_state([str(tmp_path / "shot.json")]) == busy.store.state
+    assert list(tmp_path.iterdir()) == [path], "nothing is written beside it"
+    assert starting_state([str(path)]) == busy.store.state
     before = busy.store.state
     busy.store.update(field_deg=1.0)
-    assert busy.commands.open_path(str(tmp_path / "shot.json"))
+    assert busy.commands.open_path(str(path))
     assert busy.store.state == before
 
 
@@ -79,8 +79,6 @@ def test_a_snapshot_dropped_on_the_window_is_the_same_state_and_the_same_psf(bus
     path = (tmp_path / "shot").with_suffix(ending)
     assert busy.commands.save(str(path))
     state, psf = busy.store.state, busy.live.psf.values
-    if ending != ".json":
-        (tmp_path / "shot.json").unlink()
     busy.store.replace(FIRST)
     drop(busy, path)
     assert busy.store.state == state
@@ -133,10 +131,9 @@ def test_a_torn_snapshot_is_a_sentence(busy, tmp_path, ending):
     assert busy.banner.isVisible()
 
 
-def test_the_side_car_names_the_versions(busy, tmp_path):
+def test_the_state_inside_names_the_versions(busy, tmp_path):
     busy.commands.save(str(tmp_path / "shot.png"))
-    assert '"versions"' in (tmp_path / "shot.json").read_text()
-    assert read_state(tmp_path / "shot.json") == busy.store.state
+    assert '"versions"' in text_inside(tmp_path / "shot.png")
 
 
 def test_a_place_that_cannot_be_written_is_a_sentence(busy, tmp_path):
@@ -156,8 +153,8 @@ def test_a_state_goes_into_a_picture_without_encoding_it_again(tmp_path, window)
     image = window.grab().toImage()
     assert image.save(str(tmp_path / "bare.png"))
     bare = (tmp_path / "bare.png").read_bytes()
-    whole = with_state(bare, "{} ∞")
-    assert whole[:PNG_HEADER] + whole[PNG_HEADER + len(whole) - len(bare) :] == bare
+    whole = with_text(bare, KEYWORD, "{} ∞")
+    assert whole[:HEADER] + whole[HEADER + len(whole) - len(bare) :] == bare
     with Image.open(io.BytesIO(whole)) as picture:
         picture.verify()
         assert picture.info["p2sf-state"] == "{} ∞"
@@ -174,7 +171,7 @@ def test_saved_data_are_the_light_of_pixels_where_samples_are_far_apart(tmp_path
     shown = live(new_state(depth_mm=np.inf, focus_mm=np.inf, field_deg=0.0))
     setup, request = shown.setup, replace(shown.request, window=(33, 6.0))
     points = render(setup.lens, setup.source, "traced", 33, 6.0)
-    written, _ = write_data(replace(shown, psf=points, request=request), tmp_path / "light.npz")
+    written = write_data(replace(shown, psf=points, request=request), tmp_path / "light.npz")
     found, meta = read_psf(written)
     assert found.integrated and meta["psf"]["integrated"]
     assert (found.pixel_um, found.values.shape) == (6.0, (33, 33))

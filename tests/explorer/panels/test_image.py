@@ -45,6 +45,7 @@ from p2sf_explorer.compute.views.image import (
     shown_picture,
 )
 from p2sf_explorer.compute.views.photos import channels_of, crop_and_resize, full_shape, scene_values
+from p2sf_explorer.files.embedded_state import state_inside
 from p2sf_explorer.state.state import change, new_state
 
 FAST = new_state(method="seidel", photo_pixel_um=16.0, theme="light")
@@ -298,7 +299,7 @@ def test_saving_writes_the_picture_and_the_state(window, image_panel, tmp_path):
     written = read_photo(tmp_path / "out.png").values
     assert written.shape == (ROWS, COLUMNS, 3)
     assert np.abs(written - np.clip(image_panel._answer.after, 0, 1)).max() < 0.01  # 8 bits of sRGB
-    assert (tmp_path / "out.json").is_file()
+    assert state_inside(tmp_path / "out.png") == window.store.state
 
 
 def test_a_photo_that_is_gone_is_one_sentence(window, image_panel, qtbot):

@@ -11,10 +11,9 @@ from p2sf.errors import P2SFError
 from p2sf.lensfile.library import shipped_lenses
 from p2sf.messages import Message
 from p2sf_explorer.compute.setup import default_state, with_lens
-from p2sf_explorer.files.snapshot import side_car
+from p2sf_explorer.files.embedded_state import state_inside
 from p2sf_explorer.i18n.language import set_language
 from p2sf_explorer.state.state import change, new_state
-from p2sf_explorer.state.state_files import read_state
 from p2sf_explorer.window.commands.set_dialog import SetDialog
 from p2sf_explorer.window.commands.set_request import SetTexts, first_texts, read_axes, read_request
 from tests.support.tiers import in_tiers
@@ -106,7 +105,7 @@ def test_a_set_is_written_with_its_state_while_the_window_goes_on(window, dialog
         assert dialog.bar.isVisible() and not dialog.export.isEnabled()
     with np.load(path) as file:
         assert file["psf"].shape == (2, 2, 2, 21, 21) and float(file["pixel_um"]) == 5.0
-    assert read_state(str(side_car(path))).optics.f_number == 8.0
+    assert state_inside(path).optics.f_number == 8.0 and list(tmp_path.iterdir()) == [path]
     assert "set.npz" in dialog.note.text() and dialog.export.isEnabled() and not dialog.bar.isVisible()
 
 

@@ -4,7 +4,7 @@ Only `question` runs on the live path; a worker runs `moving` or `coarse` (some 
 seconds).
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from itertools import pairwise
@@ -720,8 +720,11 @@ def work(
     return job
 
 
-def save_picture(answer: ImageResult, path: str | Path) -> None:
-    """Write the picture at the right of the split as .png or .tif, at the depth of its photo; ExportError."""
+def save_picture(answer: ImageResult, path: str | Path, texts: Mapping[str, str]) -> None:
+    """Write the picture at the right of the split as .png, .tif or .exr, at the depth of its photo; ExportError.
+
+    ``texts`` are stored in it by name.
+    """
     photo = source_photo(answer.question.photo, answer.question.shape)
     encoding = "linear" if keeps_light(path, photo.encoding) else "srgb"
-    write_photo(path, answer.after, encoding, kept_depth(path, replace(photo, encoding=encoding)))
+    write_photo(path, answer.after, encoding, kept_depth(path, replace(photo, encoding=encoding)), texts)

@@ -856,6 +856,7 @@
 <message><source>Remove this surface; the others stay where they are (Delete)</source><translation>Diese Fläche herausnehmen; die anderen bleiben, wo sie sind (Entf)</translation></message>
 <message><source>Report</source><translation>Bericht</translation></message>
 <message><source>Report, command palette, colours, theme, language</source><translation>Bericht, Befehlspalette, Farben, Aussehen, Sprache</translation></message>
+<message><source>Replace</source><translation>Ersetzen</translation></message>
 <message><source>Reset</source><translation>Nullen</translation></message>
 <message><source>Reset all</source><translation>Alles zurücksetzen</translation></message>
 <message><source>Reset all errors of the lens</source><translation>Jede Zahl des Objektivs wieder richtig stellen</translation></message>
@@ -891,7 +892,7 @@
 <message><source>Save the measurement</source><translation>Die Messung speichern</translation></message>
 <message><source>Save the numbers and their errors as .npz</source><translation>Die Zahlen und ihre Fehler als .npz speichern</translation></message>
 <message><source>Save the picture</source><translation>Das Bild speichern</translation></message>
-<message><source>Save the picture as PNG or TIFF, the state beside it</source><translation>Das Bild als PNG oder TIFF speichern, daneben den Zustand</translation></message>
+<message><source>Save the picture as PNG or TIFF, with the state in it</source><translation>Das Bild als PNG oder TIFF speichern, mit dem Zustand darin</translation></message>
 <message><source>Save the report</source><translation>Bericht speichern</translation></message>
 <message><source>Save the sweep from the first value to the last as a film</source><translation>Den Weg vom ersten bis zum letzten Wert als Film speichern</translation></message>
 <message><source>Save the view as a picture, or the scene as glTF or OBJ</source><translation>Die Ansicht als Bild oder die Szene als glTF oder OBJ speichern</translation></message>
@@ -900,6 +901,11 @@
 <message><source>Saved {count} frames, {first} to {last}</source><translation>{count} Bilder gespeichert, {first} bis {last}</translation></message>
 <message><source>Saved {name}</source><translation>{name} gespeichert</translation></message>
 <message><source>Saved {name}, and its state as {beside}</source><translation>{name} gespeichert, sein Zustand als {beside}</translation></message>
+<message><source>Saved {name}, with the state in it</source><translation>{name} gespeichert, mit dem Zustand darin</translation></message>
+<message><source>the lens takes {size:.3g} MB of text, of which {most:g} MB can be kept with what is on screen; save the lens as a file (Ctrl+Shift+S) and open that</source><translation>das Objektiv braucht {size:.3g} MB Text, von denen {most:g} MB mit dem Bildschirm gesichert werden können; das Objektiv als Datei speichern (Strg+Umschalt+S) und diese öffnen</translation></message>
+<message><source>{name} is there already. Replace it?</source><translation>{name} gibt es schon. Ersetzen?</translation></message>
+<message><source>{path} is open, and what is on screen would be lost with it; choose another name</source><translation>{path} ist geöffnet, und was zu sehen ist, ginge mit verloren; einen anderen Namen wählen</translation></message>
+<message><source>{path} is there already and is no state of the explorer; choose another name, or move that file</source><translation>{path} gibt es schon und ist kein Zustand des Explorers; einen anderen Namen wählen oder diese Datei verschieben</translation></message>
 <message><source>Save…</source><translation>Speichern …</translation></message>
 <message><source>Schmidt camera f/3, 80 mm</source><translation>Schmidt-Kamera f/3, 80 mm</translation></message>
 <message><source>Sections of the PSF through the chief ray, relative to its peak; grey: the Airy pattern (2J₁(v)/v)². Beside or below: encircled energy, the share of all light within a radius of the centroid; grey: a perfect lens. If something stands in the stop, the perfect lens has the same pupil, and a thin curve is for the clear one. The RMS radius is that of the rays, since that of diffracted light is infinite.</source><translation>Schnitte der PSF durch den Hauptstrahl, auf ihren eigenen Spitzenwert bezogen; grau: das Airy-Muster (2J₁(v)/v)². Daneben oder darunter: umschlossene Energie, der Anteil allen Lichts innerhalb eines Radius um seinen Schwerpunkt; grau: eine ideale Linse, mit etwas in der Blende die derselben Pupille, und dünn die der freien. Der RMS-Radius ist der der Strahlen: das Licht hinter einem harten Rand hat keinen.</translation></message>
@@ -981,7 +987,7 @@
 <message><source>The blur is so large that the picture is ray density, no diffraction; {remedy}.</source><translation>Die Unschärfe ist so groß, dass das Bild die Strahlendichte ohne Beugung ist; {remedy}.</translation></message>
 <message><source>The complete trade has been measured for shipped lenses; for others, run p2sf tradeoff LENS --complete</source><translation>Der vollständige Vergleich ist für die mitgelieferten Objektive gemessen; für andere mit p2sf tradeoff LENS --complete</translation></message>
 <message><source>The distance between pixels, µm</source><translation>Der Abstand der Pixel, µm</translation></message>
-<message><source>The explorer did not close properly. What was on screen has been kept.</source><translation>Der Explorer ist nicht ordentlich zu Ende gegangen. Was auf dem Bildschirm war, ist aufgehoben.</translation></message>
+<message><source>The explorer did not close properly. What was on screen, {lens} on {when}, has been kept.</source><translation>Der Explorer ist nicht ordentlich zu Ende gegangen. Was auf dem Bildschirm war, {lens} am {when}, ist aufgehoben.</translation></message>
 <message><source>The explorer has made a mistake.</source><translation>Der Explorer hat einen Fehler gemacht.</translation></message>
 <message><source>The figures below and the sentence above are those of A, which the controls move.</source><translation>Die Zahlen darunter und der Satz darüber gehören zu A, das die Regler bewegen.</translation></message>
 <message><source>The first picture is being made …</source><translation>Das erste Bild entsteht …</translation></message>

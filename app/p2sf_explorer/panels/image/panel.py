@@ -32,7 +32,9 @@ from p2sf_explorer.compute.views.image import (
 )
 from p2sf_explorer.compute.views.moving_image import Keeper, moving
 from p2sf_explorer.compute.views.photos import CHART_WORDS
-from p2sf_explorer.files.snapshot import side_car, write_state
+from p2sf_explorer.files.asking import ask_path
+from p2sf_explorer.files.embedded_state import KEYWORD
+from p2sf_explorer.files.snapshot import check_snapshot, saved, state_text
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import local, tr, unbroken
 from p2sf_explorer.panels.image.depth_row import DepthRow
@@ -81,7 +83,7 @@ class ImagePanel:
         self.open = small_button(
             "Photo…", "Choose a PNG, TIFF, OpenEXR, JPEG or HEIF to photograph, up to 12 megapixels", self._ask_photo
         )
-        self.save = small_button("Save…", "Save the picture as PNG or TIFF, the state beside it", self._ask_save)
+        self.save = small_button("Save…", "Save the picture as PNG or TIFF, with the state in it", self._ask_save)
         self.depth_row = DepthRow(store, self.widget)
         self.split_view, self.headline, self.plan_line, self.words = SplitView(), QLabel(), PlanLine(), Why()
         self.overlay = Overlay(self.split_view)
@@ -313,24 +315,22 @@ class ImagePanel:
         )
 
     def _ask_save(self) -> None:
-        path, _ = QFileDialog.getSaveFileName(self.widget, tr("Save the picture"), "image.png", tr(SAVED))
-        if path:
-            self.save_as(path if Path(path).suffix else f"{path}.png")
+        if path := ask_path(self.widget, tr("Save the picture"), "image.png", tr(SAVED)):
+            self.save_as(path)
 
     def save_as(self, path: str) -> None:
-        """Save the picture and beside it the state, or say why not."""
+        """Save the picture with the state in it, or say why not."""
         answer = self._present()
         if answer is None:  # the picture on screen belongs to another state than the one that would be saved
             self._store.refused.emit(Message("there is no picture yet; save it when it is on screen"))
             return
         try:
-            save_picture(answer, path)
-            write_state(self._store.state, side_car(path), exported=Path(path).name)
+            check_snapshot(self._store.state, path)
+            save_picture(answer, path, {KEYWORD: state_text(self._store.state)})
         except P2SFError as error:
             self._store.refused.emit(error)
         else:
-            names = {"name": Path(path).name, "beside": side_car(path).name}
-            self._store.said.emit(Message("Saved {name}, and its state as {beside}", **names))
+            self._store.said.emit(saved(path))
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""

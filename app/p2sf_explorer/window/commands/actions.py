@@ -19,10 +19,11 @@ from p2sf_explorer.compute.autofocus import best_shift_um
 from p2sf_explorer.compute.editing import edited_state
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import prescription, with_lens
+from p2sf_explorer.files.asking import ask_path
 from p2sf_explorer.files.opening import KINDS, Refusal, open_file, refusal
 from p2sf_explorer.files.recent import recent_files, remember
 from p2sf_explorer.files.saving import ask_save_lens
-from p2sf_explorer.files.snapshot import DATA_ENDINGS, side_car, write_data, write_picture, write_state
+from p2sf_explorer.files.snapshot import DATA_ENDINGS, saved, write_data, write_picture, write_state
 from p2sf_explorer.handbook.pages import PAGES
 from p2sf_explorer.handbook.viewer import Handbook
 from p2sf_explorer.i18n.tr import tr
@@ -202,9 +203,8 @@ class Actions(QObject):
         return self.attempt(lambda: self._store.replace(edited_state(state, other)))
 
     def save(self, path: str, picture_of: QWidget | None = None) -> bool:
-        """Write a snapshot by the ending of its name, its state beside it."""
-        ending, state = Path(path).suffix.lower(), self._store.state
-        done = Message("Saved {name}, and its state as {beside}", name=Path(path).name, beside=side_car(path).name)
+        """Write a snapshot by the ending of its name, with its state in it."""
+        ending, state, done = Path(path).suffix.lower(), self._store.state, saved(path)
         if ending in DATA_ENDINGS:
             went = self.attempt(lambda: write_data(self._panels.live(), path, state))
         elif ending == ".json":
@@ -229,10 +229,8 @@ class Actions(QObject):
         """Ask for a name and save the snapshot."""
         ending = kinds.split("*")[1].split(")")[0]
         first = f"{Path(self._store.state.optics.lens).stem}{ending}"
-        path, chosen = QFileDialog.getSaveFileName(self._window, tr("Save a snapshot"), first, tr(kinds))
-        if path:
-            named = path if Path(path).suffix else path + chosen.split("*")[1].split(")")[0]
-            self.save(named, picture_of)
+        if path := ask_path(self._window, tr("Save a snapshot"), first, tr(kinds)):
+            self.save(path, picture_of)
 
     def ask_set(self) -> None:
         """Ask what a set of PSFs is to hold."""
@@ -294,10 +292,8 @@ class Actions(QObject):
     def ask_report(self) -> None:
         """Ask for a name and write the report."""
         first = f"{Path(self._store.state.optics.lens).stem}.pdf"
-        path, chosen = QFileDialog.getSaveFileName(self._window, tr("Save the report"), first, tr(REPORT_FILES))
-        if path:
-            named = path if Path(path).suffix else path + chosen.split("*")[1].split(")")[0]
-            self.write_report(named)
+        if path := ask_path(self._window, tr("Save the report"), first, tr(REPORT_FILES)):
+            self.write_report(path)
 
     def write_report(self, path: str) -> None:
         """Write the report on the lens as it is set in the background, by the ending of the name."""

@@ -8,7 +8,6 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QCloseEvent
 from PySide6.QtWidgets import (
     QDialog,
-    QFileDialog,
     QFormLayout,
     QHBoxLayout,
     QLabel,
@@ -20,14 +19,15 @@ from PySide6.QtWidgets import (
 
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
-from p2sf_explorer.files.snapshot import side_car
+from p2sf_explorer.files.asking import ask_path
+from p2sf_explorer.files.snapshot import saved
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.store.worker import LatestWins
 from p2sf_explorer.widgets.value_edit import ShortField
-from p2sf_explorer.window.commands.set_request import SetRequest, SetTexts, first_texts, read_request, work
+from p2sf_explorer.window.commands.set_request import SetRequest, SetTexts, first_texts, holds_state, read_request, work
 
 FILES = (
     "NumPy (*.npz);;TIFF stack for ImageJ (*.tif);;FITS (*.fits);;MATLAB and Octave (*.mat);;Table of figures (*.csv)"
@@ -167,9 +167,8 @@ class SetDialog(QDialog):
         if not self._check():
             return
         first = f"{Path(self._store.state.optics.lens).stem}_psfs.npz"
-        path, chosen = QFileDialog.getSaveFileName(self, tr("Export a set of PSFs"), first, tr(FILES))
-        if path:
-            self.write(path if Path(path).suffix else path + chosen.split("*")[1].split(")")[0])
+        if path := ask_path(self, tr("Export a set of PSFs"), first, tr(FILES)):
+            self.write(path)
 
     def write(self, path: str) -> bool:
         """Make the set and write it; return whether that has begun."""
@@ -206,7 +205,7 @@ class SetDialog(QDialog):
 
     def _on_finished(self, request: SetRequest, found: tuple[Path, Message | None]) -> None:
         path, warning = found
-        done = Message("Saved {name}, and its state as {beside}", name=path.name, beside=side_car(path).name)
+        done = saved(path, holds_state(path))
         if request is self._running or self._running is None:  # one that was cancelled too late is written as well
             self._show_running(None)
             self._say("\n".join(said(each) for each in (done, warning) if each))

@@ -7,13 +7,14 @@ from pathlib import Path
 from threading import Event
 
 from p2sf.export.psf_set import PIXELS, PixelGrid, SetAxes, axes_of, left_out, psf_set
-from p2sf.export.psf_set_files import check_set_ending, write_psf_set
+from p2sf.export.psf_set_files import HOLDING, check_set_ending, write_psf_set
 from p2sf.image import Progress
 from p2sf.messages import Message
 from p2sf.raytrace.focusing import object_distance
 from p2sf.spans import depths, numbers
 from p2sf_explorer.compute.setup import Ranges, prescription, ranges, request_setup
-from p2sf_explorer.files.snapshot import side_car, write_state
+from p2sf_explorer.files.embedded_state import ENTRY
+from p2sf_explorer.files.snapshot import check_snapshot, check_state_place, state_beside, state_text, write_state
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.scales import read_distance, read_number, significant, written_distance
 from p2sf_explorer.state.state import State, change
@@ -80,6 +81,9 @@ def list_texts(texts: Iterable[str]) -> str:
 def read_request(state: State, texts: SetTexts, path: str) -> SetRequest:
     """Return what a person asked for; P2SFError names what cannot be."""
     check_set_ending(path)
+    check_snapshot(state, path)
+    if not holds_state(path):
+        check_state_place(state_beside(path))
     axes = read_axes(texts)
     for name, values in zip(("depth_mm", "field_deg", "wavelength_nm"), astuple(axes), strict=True):
         for value in values:
@@ -105,16 +109,22 @@ def read_axes(texts: SetTexts) -> SetAxes:
 
 
 def write_set(request: SetRequest, watch: Progress) -> tuple[Path, Message | None]:
-    """Make a set and write it, and the state beside it; return the path and a warning, if one is due.
+    """Make a set and write it with the state in it, or beside it; return the path and a warning, if one is due.
 
     Raises P2SFError, Cancelled among them.
     """
     state = request.state
     lens = request_setup(state).lens
     found = psf_set(lens, request.axes, request.grid, state.optics.clip, watch)
-    made = write_psf_set(found, request.path)
-    write_state(state, side_car(request.path), exported=made.name)
+    made = write_psf_set(found, request.path, {ENTRY: state_text(state)})
+    if not holds_state(made):
+        write_state(state, state_beside(made), exported=made.name)
     return made, left_out(found)
+
+
+def holds_state(path: str | Path) -> bool:
+    """Return whether a set of this name holds the state."""
+    return Path(path).suffix.lower() in HOLDING
 
 
 def work(request: SetRequest) -> Callable[[Event, Callable[[float], None]], tuple[Path, Message | None]]:
