@@ -2,6 +2,7 @@
 
 import json
 import os
+from contextlib import suppress
 from pathlib import Path
 
 from p2sf.errors import P2SFError
@@ -20,11 +21,6 @@ def session_path() -> Path:
     return recent.recent_path().with_name("window.json")
 
 
-def rescued_path() -> Path:
-    """Return where the window of a run that crashed is kept, until it is taken up again or given up."""
-    return recent.recent_path().with_name("rescued.json")
-
-
 def keep_session(state: State, geometry: dict[str, str]) -> bool:
     """Keep the state and where the window's parts stand, whole or not at all; return whether they are kept."""
     path = session_path()
@@ -37,33 +33,67 @@ def keep_session(state: State, geometry: dict[str, str]) -> bool:
 
 
 def last_session() -> Session:
-    """Return the state and the window's geometry as kept last; those of a first start where these cannot be opened."""
-    return _session(session_path()) or (first_state(), {})
+    """Return the state and the window's geometry as kept last; those of a first start where these cannot be opened.
+
+    One that cannot, as its lens is not there now, is put aside before the window writes over it.
+    """
+    found = _session(session_path())
+    if found is None:
+        rescue_session()
+    return found or (first_state(), {})
 
 
 def rescue_session() -> None:
-    """Put the last session aside, so that what is done before it is taken up again does not write over it."""
-    if _session(session_path()):
-        os.replace(session_path(), rescued_path())
+    """Put the last session aside, under a number of its own, until it is taken up again or given up."""
+    if _kept(session_path()):
+        number = max(map(_number, _rescued_paths()), default=0) + 1
+        os.replace(session_path(), session_path().with_name(f"rescued-{number}.json"))
 
 
-def rescued_session() -> Session | None:
-    """Return the session of a run that crashed; None where there is none, or none that can be opened."""
-    return _session(rescued_path())
+def rescued_sessions() -> dict[Path, Session]:
+    """Return the sessions that were put aside and can be opened, by their files, the latest first."""
+    found = {path: _session(path) for path in sorted(_rescued_paths(), key=_number, reverse=True)}
+    return {path: session for path, session in found.items() if session}
 
 
-def forget_rescued() -> None:
-    """Give up the session of a run that crashed, or note that it has been taken up."""
-    rescued_path().unlink(missing_ok=True)
+def take_rescued(path: Path) -> None:
+    """Make a session that was put aside the last one: if the program ends at once, it is put aside again."""
+    with suppress(OSError):  # a window beside this one may have taken it
+        os.replace(path, session_path())
+
+
+def forget_rescued(path: Path) -> None:
+    """Give up a session that was put aside."""
+    path.unlink(missing_ok=True)
+
+
+def _rescued_paths() -> list[Path]:
+    return list(session_path().parent.glob("rescued*.json"))
+
+
+def _number(path: Path) -> int:
+    """Return which of the sessions put aside this was; 0 for the one that versions before 0.3 kept."""
+    digits = path.stem.removeprefix("rescued-")
+    return int(digits) if digits.isdecimal() else 0
 
 
 def _session(path: Path) -> Session | None:
+    """Return a session that is kept and can be opened, None where there is none."""
+    kept = _kept(path)
+    try:
+        for state in (kept[0], kept[0].compare.pinned) if kept else ():
+            if state:
+                prescription(state)
+    except P2SFError:
+        return None
+    return kept
+
+
+def _kept(path: Path) -> Session | None:
+    """Return a session that is kept, None where there is none or it is damaged."""
     try:
         text = path.read_text(encoding="utf-8")
         state, geometry = state_from_json(text), json.loads(text).get("geometry")
-        prescription(state)
-        if state.compare.pinned:
-            prescription(state.compare.pinned)
     except (OSError, UnicodeDecodeError, P2SFError):
         return None
     sound = isinstance(geometry, dict) and all(isinstance(item, str) for item in geometry.values())

@@ -1,6 +1,9 @@
 """Keep the window for the next start: its state and its geometry."""
 
+import os
 from collections.abc import Callable, Mapping
+from contextlib import suppress
+from pathlib import Path
 from threading import Condition, Lock, Thread
 from time import sleep
 
@@ -88,23 +91,35 @@ class SessionKeeper(QObject):
 
 
 class RunMark:
-    """A file that is there while the explorer runs: one that is found at the start was left by a crash.
-
-    A second explorer beside the first has no mark of its own.
-    """
+    """A file that is there while an explorer runs: one that is found without its process was left by a crash."""
 
     def __init__(self) -> None:
-        path = session_path().with_name("running")
-        self._lock, self._found = QLockFile(str(path)), path.exists()
-        self._lock.setStaleLockTime(0)  # a mark gets stale by the end of its process, however long that runs
+        self._folder = session_path().parent
+        self._own = QLockFile(str(self._folder / f"running-{os.getpid()}"))
 
     def begin(self) -> bool:
-        """Set the mark; return whether the last run did not end as it should."""
-        return self._lock.tryLock(0) and self._found
+        """Set the mark; return whether a run before did not end as it should."""
+        with suppress(OSError):  # a folder that cannot be made costs only the memory
+            self._folder.mkdir(parents=True, exist_ok=True)
+        crashed = [self._left_behind(path) for path in self._folder.glob("running*")]
+        self._own.setStaleLockTime(0)
+        self._own.tryLock(0)
+        return any(crashed)
 
     def end(self) -> None:
         """Take the mark away: this run ends as it should."""
-        self._lock.unlock()
+        self._own.unlock()
+
+    def _left_behind(self, path: Path) -> bool:
+        """Return whether a mark has lost its process, and take it away if so."""
+        if path.name == f"running-{os.getpid()}":  # of a process that had this one's number
+            path.unlink(missing_ok=True)
+            return True
+        mark = QLockFile(str(path))
+        mark.setStaleLockTime(0)  # a mark gets stale by the end of its process, however long that runs
+        stale = mark.tryLock(0)
+        mark.unlock()
+        return stale
 
 
 def pack(place: QByteArray) -> str:

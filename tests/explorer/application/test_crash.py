@@ -17,7 +17,7 @@ from p2sf_explorer.application.crash_dialog import KEPT, NOT_KEPT, UnexpectedErr
 from p2sf_explorer.application.crash_report import OWN_LENS, report, without_paths
 from p2sf_explorer.application.recovery import offer_rescued, session_to_open
 from p2sf_explorer.compute.setup import first_state
-from p2sf_explorer.files.session import forget_rescued, keep_session, last_session, rescued_session, session_path
+from p2sf_explorer.files.session import keep_session, last_session, rescued_sessions, session_path
 from p2sf_explorer.files.session_keeper import RunMark, SessionKeeper
 from p2sf_explorer.state.state import State, new_state
 from p2sf_explorer.store.worker import LatestWins
@@ -181,7 +181,18 @@ def test_a_run_that_is_killed_leaves_its_mark_and_one_that_ends_does_not():
     mark.end()
 
 
-def test_after_a_crash_the_window_begins_anew_and_offers_the_last_one(window, qtbot):
+@pytest.fixture
+def memory(tmp_path, monkeypatch) -> Path:
+    """Return a folder of the test's own in which sessions are kept; it is not there yet, as at the first start."""
+    monkeypatch.setattr("p2sf_explorer.files.recent.recent_path", lambda: tmp_path / "memory" / "recent.json")
+    return tmp_path / "memory"
+
+
+def rescued_lenses() -> list[str]:
+    return [state.optics.lens for state, _ in rescued_sessions().values()]
+
+
+def test_after_a_crash_the_window_begins_anew_and_offers_the_last_one(window, memory):
     before = new_state(lens="tessar", field_deg=3.0, method="seidel", theme="dark")
     keep_session(before, {"window": "AA=="})
     state, geometry = session_to_open(None, crashed=True)
@@ -190,25 +201,86 @@ def test_after_a_crash_the_window_begins_anew_and_offers_the_last_one(window, qt
     offer = offer_rescued(window.store, window.edge.add, window)
     offer.accept.click()
     assert window.store.state == before and not offer.isVisible()
-    assert rescued_session() is None and offer_rescued(window.store, window.edge.add, window) is None
+    assert not rescued_sessions() and offer_rescued(window.store, window.edge.add, window) is None
+    assert last_session()[0] == before, "a crash at once would find it again"
     window.store.undo()
     assert window.store.state != before
     offer.deleteLater()
 
 
-def test_an_offer_that_nobody_answered_comes_again(window):
+def test_an_offer_that_nobody_answered_comes_again(window, memory):
     keep_session(new_state(lens="tessar"), {})
     session_to_open(None, crashed=True)
     assert session_to_open(None, crashed=False) == last_session()
     offer = offer_rescued(window.store, window.edge.add, window)
     offer.dismiss.click()
-    assert rescued_session() is None
+    assert not rescued_sessions()
     offer.deleteLater()
 
 
-def test_after_a_crash_what_was_asked_for_opens_and_the_last_window_is_offered():
+def test_after_a_crash_what_was_asked_for_opens_and_the_last_window_is_offered(memory):
     keep_session(new_state(lens="tessar"), {})
     asked = new_state(lens="landscape")
     assert session_to_open(asked, crashed=True) == (asked, {})
-    assert rescued_session()[0].optics.lens == "tessar"
-    forget_rescued()
+    assert rescued_lenses() == ["tessar"]
+
+
+def test_a_second_crash_keeps_what_the_first_left(window, memory):
+    """An hour's work, a crash, a fresh window that crashes as well: the work was written over by the fresh window."""
+    for lens in ("tessar", "landscape", "petzval"):
+        keep_session(new_state(lens=lens), {})
+        session_to_open(None, crashed=True)
+    assert rescued_lenses() == ["petzval", "landscape", "tessar"]
+    shown = []
+    offer_rescued(window.store, shown.append, window).dismiss.click()
+    assert rescued_lenses() == ["landscape", "tessar"]
+    shown[-1].accept.click()
+    assert window.store.state.optics.lens == "landscape" and rescued_lenses() == ["tessar"]
+    keep_session(new_state(lens="cooke_triplet"), {})
+    session_to_open(None, crashed=True)
+    assert rescued_lenses() == ["cooke_triplet", "tessar"], "what is left keeps its place"
+    for offer in shown:
+        offer.deleteLater()
+
+
+def test_a_session_rescued_by_an_older_version_is_offered(memory):
+    keep_session(new_state(lens="tessar"), {})
+    (memory / "window.json").rename(memory / "rescued.json")
+    assert rescued_lenses() == ["tessar"]
+    keep_session(new_state(lens="petzval"), {})
+    session_to_open(None, crashed=True)
+    assert rescued_lenses() == ["petzval", "tessar"]
+
+
+def killed_run(memory: Path) -> bool:
+    """Kill a run in the middle, and return whether it had found that one before did not end as it should."""
+    code = (
+        "import os; from pathlib import Path; from p2sf_explorer.files import recent; "
+        f"recent.recent_path = lambda: Path({str(memory / 'recent.json')!r}); "
+        "from p2sf_explorer.files.session_keeper import RunMark; "
+        "mark = RunMark(); print(mark.begin(), flush=True); os.kill(os.getpid(), 9)"
+    )
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=ROOT)
+    return {"True": True, "False": False}[run.stdout.strip()]
+
+
+def test_the_very_first_run_makes_the_folder_of_its_mark(memory):
+    mark = RunMark()
+    assert not mark.begin() and list(memory.glob("running*"))
+    mark.end()
+    assert not list(memory.glob("running*"))
+
+
+@pytest.mark.slow
+def test_the_very_first_run_leaves_its_mark_and_so_does_a_window_beside_another(memory):
+    """The folder of the marks was not there at the first start; a second window had no mark of its own."""
+    assert not killed_run(memory)
+    first = RunMark()
+    assert first.begin(), "the first run of all was killed"
+    assert not killed_run(memory), "the first window is there and goes on"
+    assert killed_run(memory), "the window beside it was killed"
+    first.end()
+    last = RunMark()
+    assert last.begin()
+    last.end()
+    assert not list(memory.glob("running*"))

@@ -10,9 +10,17 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QCloseEvent, QGuiApplication
 
 from p2sf.errors import P2SFError
+from p2sf.lensfile.library import find_lens
+from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf_explorer.application.main import starting_state
 from p2sf_explorer.compute.setup import first_state
-from p2sf_explorer.files.session import last_session, session_path
+from p2sf_explorer.files.session import (
+    forget_rescued,
+    keep_session,
+    last_session,
+    rescued_sessions,
+    session_path,
+)
 from p2sf_explorer.files.session_keeper import SessionKeeper
 from p2sf_explorer.state.link import PREFIX, link, state_of_link
 from p2sf_explorer.state.state import new_state
@@ -102,8 +110,24 @@ GONE = '{"schema": "p2sf-explorer-state", "version": 1, "state": {"lens": "gone"
 DEEP = GONE.replace('"gone"', "[" * 980 + "]" * 980)
 
 
-@pytest.mark.parametrize("text", ["", "{", GONE, "[]", DEEP, "[" * 100_000])
-def test_a_torn_or_stale_session_costs_only_the_memory(window, text):
+def test_a_session_whose_lens_is_gone_is_kept_until_it_comes_back(tmp_path):
+    """It was written over by the first change in the window that opened without it."""
+    lens = tmp_path / "mine.toml"
+    lens.write_text(lens_to_toml(find_lens("tessar")))
+    state = new_state(lens=str(lens), field_deg=2.0)
+    keep_session(state, {})
+    lens.rename(tmp_path / "away.toml")
+    assert last_session() == (first_state(), {}) and not rescued_sessions()
+    keep_session(new_state(), {})
+    (tmp_path / "away.toml").rename(lens)
+    ((path, kept),) = rescued_sessions().items()
+    assert kept == (state, {})
+    forget_rescued(path)
+    session_path().unlink()
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", DEEP, "[" * 100_000])
+def test_a_torn_session_costs_only_the_memory(window, text):
     session_path().parent.mkdir(parents=True, exist_ok=True)
     session_path().write_text(text)
     assert last_session() == (first_state(), {})
