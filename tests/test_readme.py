@@ -3,6 +3,7 @@
 import re
 import shlex
 import shutil
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -28,6 +29,18 @@ def test_the_library_example_runs_as_written(capsys):
 @pytest.mark.parametrize("line", LINES)
 def test_every_command_shown_exists(line):
     assert shlex.split(line, comments=True)[1] in COMMANDS
+
+
+def test_one_version_stands_in_the_project_and_the_last_release_in_its_citation():
+    """A release is dated in the changelog; what comes after it is a development version of the next."""
+    stated = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
+    number, date = re.search(
+        r"^## ([\d.]+) – ([\d-]+)$", (ROOT / "CHANGELOG.md").read_text("utf-8"), re.MULTILINE
+    ).groups()
+    citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    assert f"\nversion: {number}\ndate-released: {date}\n" in citation
+    parts = [tuple(map(int, words.removesuffix(".dev0").split("."))) for words in (stated, number)]
+    assert parts[0] == parts[1] if stated == number else stated.endswith(".dev0") and parts[0] > parts[1]
 
 
 LONG = {"tradeoff", "paper"}  # seconds each, and run by tests/cli/test_tradeoff.py and tests/studies
