@@ -184,7 +184,7 @@ def test_rims_end_a_pupil_without_symmetry(bad):
 def test_a_colour_psf_adds_wavelengths_where_their_chief_rays_land(gauss):
     """Centroid of each: that of its own PSF, moved by its chief ray; decentres in x move it in x."""
     bad, spectrum = displaced(gauss, 3, 3, Placement(0.3, 0.0)), spectrum_of("lines:450,640")
-    window = 65, suitable_pitch_um(bad, Source(), spectrum, 65)
+    window = 97, suitable_pitch_um(bad, Source(), spectrum, 97)  # finer than λ/2NA: their shares of light are known
     found = colour_psf(bad, Source(), spectrum, window, "traced")
     waves, weights = bands(spectrum, 21)
     assert np.abs(found.aside_um).min() > 1.0 and np.abs(found.shift_um).max() < 1e-6

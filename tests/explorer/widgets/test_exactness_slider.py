@@ -48,7 +48,7 @@ def test_letting_go_takes_the_error_as_one_step_of_undo(window, panel, qtbot):
     assert "R² ≥ 0.99999" in panel.asked.text()
     panel.slider.setSliderDown(False)
     assert window.store.state.optics.tolerance == pytest.approx(1 - 1e-5)
-    assert window.live.method in ("traced", "huygens", "fitted")
+    assert window.live.method in ("traced", "huygens", "spherical", "fitted")
     window.store.undo()
     assert window.store.state == before
 
