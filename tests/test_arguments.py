@@ -150,7 +150,6 @@ def test_one_frequency_radius_or_position_is_enough():
 
 WRONG = {
     "a source that is a number": lambda: p2sf.render(LENS, 10),
-    "no source": lambda: p2sf.zernike(LENS, None),
     "a source for coefficients": lambda: p2sf.coefficients(LENS, "axis"),
     "a source for a choice": lambda: p2sf.choose_method(LENS, 5),
     "a source for an MTF": lambda: p2sf.mtf(LENS, 5),

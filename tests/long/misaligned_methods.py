@@ -24,9 +24,10 @@ from p2sf.lens.source import Source
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.compare import r_squared
 from p2sf.psf.fitted import fitted_psf
-from p2sf.psf.huygens import first_counts, huygens_psf
+from p2sf.psf.huygens import first_counts, huygens_psf, sum_rays
 from p2sf.psf.methods import PsfOptions, choose, render
 from p2sf.psf.seidel import suitable_pixel_um
+from p2sf.psf.spherical import spherical_pupil
 from p2sf.psf.sums.plane_waves import window_reach_um
 from p2sf.psf.traced import traced_psf
 from p2sf.raytrace.fit import NOT_SYMMETRIC
@@ -96,7 +97,8 @@ def outcome(number: int, seed: int) -> Outcome:
         fitted, predicted = r_squared(fit.values, reference.values), float(fit.predicted_error)
     except P2SFError:  # rays are lost
         fitted, predicted = np.nan, np.inf
-    r2 = [r_squared(psf.values, reference.values) for psf in (chosen, traced)]
+    exact = sum_rays(spherical_pupil(bad, source), (PIXELS, pixel)) if choice.method == "spherical" else reference
+    r2 = [r_squared(chosen.values, exact.values), r_squared(traced.values, reference.values)]
     return Outcome(number, lens.name, choice.method, tolerance, r2[0], fitted, predicted, r2[1])
 
 

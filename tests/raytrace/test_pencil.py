@@ -133,11 +133,15 @@ def test_a_ray_that_no_search_brings_onto_the_stop_is_nan_and_says_so():
 
 def test_a_pencil_says_which_of_its_rays_could_not_be_aimed():
     lens, angle = with_aim(prescription_lens("asphere", 587.5618), "stop"), 2 * np.pi * np.arange(24) / 24
-    source = Source(inf, np.tan(np.deg2rad(70)), 0.5875618)
-    rays = pencil(lens, source, np.sin(angle), np.cos(angle))
-    lost = rays.status == Status.UNAIMED
-    assert 0 < lost.sum() < 24 and (rays.failed_surface[lost] == lens.stop_surface).all()
-    assert np.isnan(rays.path[lost]).all() and np.isfinite(rays.path[rays.passed]).all()
+    total = 0
+    for field_deg in (68, 71, 73, 75):  # at which of these the search fails for how many rays is a matter of rounding
+        source = Source(inf, np.tan(np.deg2rad(field_deg)), 0.5875618)
+        rays = pencil(lens, source, np.sin(angle), np.cos(angle))
+        lost = rays.status == Status.UNAIMED
+        assert lost.sum() < 24 and (rays.failed_surface[lost] == lens.stop_surface).all()
+        assert np.isnan(rays.path[lost]).all() and np.isfinite(rays.path[rays.passed]).all()
+        total += lost.sum()
+    assert total > 0
 
 
 def test_rays_found_directly_are_kept_when_others_are_lost():
