@@ -24,6 +24,10 @@ class P2SFWarning(UserWarning):
     """A result that is correct but possibly not what was intended, such as a PSF cut off by its window."""
 
 
+class FileWarning(P2SFWarning):
+    """A file was written, with an effect on another one; its argument is a `Message`."""
+
+
 class GlassError(P2SFError):
     """A glass that is unknown or ambiguous, or a wavelength outside its data."""
 

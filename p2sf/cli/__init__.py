@@ -2,11 +2,12 @@
 
 import os
 import sys
+import warnings
 from collections.abc import Sequence
 from io import TextIOWrapper
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TextIO
 
-from p2sf.errors import P2SFError
+from p2sf.errors import FileWarning, P2SFError
 from p2sf.messages import Style, printable
 from p2sf.parameters import flag
 from p2sf.version import version_text
@@ -56,11 +57,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     from cyclopts import CycloptsError
 
+    _open_closed_streams()
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="replace")  # a terminal without ∞ or µ shows "?" and does not fail
     try:
-        code: int | None = _app()(arguments, exit_on_error=False, print_error=False)
+        with warnings.catch_warnings():
+            warnings.simplefilter("always", FileWarning)
+            warnings.showwarning = _show_warning
+            code: int | None = _app()(arguments, exit_on_error=False, print_error=False)
         sys.stdout.flush()
         return code or 0
     except CycloptsError as error:
@@ -75,6 +80,30 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _fail(f"{error.filename or 'standard output'}: {error.strerror or error}; choose another place")
     except KeyboardInterrupt:
         return INTERRUPTED
+
+
+def _open_closed_streams() -> None:
+    """Give what is printed a place where the shell has closed it, as ``>&-`` does: Python has None there."""
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))
+
+
+def _show_warning(
+    message: Warning | str,
+    category: type[Warning],
+    filename: str,
+    lineno: int,
+    file: TextIO | None = None,
+    line: str | None = None,
+) -> None:
+    """Print a warning of a writer of files as commands print theirs, others as Python does."""
+    from p2sf.cli.screen import warn
+
+    if isinstance(message, FileWarning):
+        return warn(message.args[0])
+    print(warnings.formatwarning(message, category, filename, lineno, line), end="", file=file or sys.stderr)
+    return None
 
 
 def _app() -> "App":

@@ -1,16 +1,26 @@
 """Files written atomically, even if an error, a full disk or a kill interrupts the writing."""
 
+import errno
 import os
 import secrets
+import stat
 import struct
+import warnings
 import zlib
 from collections.abc import Callable
 from contextlib import suppress
-from pathlib import Path
 from tokenize import TokenError
 from typing import BinaryIO
 from zipfile import BadZipFile
 
+from p2sf.errors import FileWarning
+from p2sf.messages import Message
+
+CUT = (
+    "{path} had another name (a hard link), under which the old contents stay; copy the new file there if it is to "
+    "follow"
+)
+NO_FILE = "it is a pipe or a device and not a file"
 # Errors for a damaged archive: numpy parses headers as Python, and zip and its compressors raise their own.
 DAMAGED = (
     BadZipFile,
@@ -32,13 +42,18 @@ def write_whole(path: str | os.PathLike, write: Callable[[BinaryIO], object]) ->
     """Call ``write`` with a new file in the folder of ``path``, then rename it to ``path``; raises OSError.
 
     On failure an existing file at ``path`` keeps its contents and no partial file is left; after a kill as well where
-    the system supports files without a name.
+    the system supports files without a name. A file that is replaced leaves its mode and, where that is allowed, its
+    owner to the new one. A symbolic link stays, and what it names is replaced; a hard link is cut, with a FileWarning.
     """
-    target = Path(path).resolve()
-    part = target.with_name(f".{secrets.token_hex(6)}.part")
+    target = os.path.realpath(path)
+    replaced = replaceable(target)
+    folder = os.path.dirname(target)
+    part = os.path.join(folder, f".{secrets.token_hex(6)}.part")
     try:
-        unnamed = _nameless_file(target.parent)
+        unnamed = _nameless_file(folder)
         with unnamed or open(part, "xb") as handle:
+            if replaced:
+                _take_after(replaced, handle.fileno())
             write(handle)
             handle.flush()
             os.fsync(handle.fileno())
@@ -47,10 +62,38 @@ def write_whole(path: str | os.PathLike, write: Callable[[BinaryIO], object]) ->
         os.replace(part, target)
     finally:
         with suppress(OSError):
-            part.unlink(missing_ok=True)
+            os.unlink(part)
+    if replaced and replaced.st_nlink > 1:
+        warnings.warn(FileWarning(Message(CUT, path=os.fspath(path))), stacklevel=3)
 
 
-def _nameless_file(folder: Path) -> BinaryIO | None:
+def replaceable(path: str | os.PathLike) -> os.stat_result | None:
+    """Return what is known of the file that a new one would replace, None where there is none yet.
+
+    Raises OSError for a folder, for a FIFO or a device, which would be gone, and for a file that is write-protected.
+    """
+    try:
+        found = os.stat(path)
+    except FileNotFoundError:
+        return None
+    if stat.S_ISDIR(found.st_mode):
+        raise OSError(errno.EISDIR, os.strerror(errno.EISDIR), os.fspath(path))
+    if not stat.S_ISREG(found.st_mode):
+        raise OSError(errno.EOPNOTSUPP, NO_FILE, os.fspath(path))
+    if not os.access(path, os.W_OK):
+        raise OSError(errno.EACCES, "the file is write-protected", os.fspath(path))
+    return found
+
+
+def _take_after(replaced: os.stat_result, number: int) -> None:
+    """Give an open file the owner and the mode of another, as far as the system has and allows it."""
+    with suppress(OSError, AttributeError):
+        os.fchown(number, replaced.st_uid, replaced.st_gid)
+    with suppress(OSError, AttributeError):
+        os.fchmod(number, stat.S_IMODE(replaced.st_mode))  # second, since a change of owner clears bits
+
+
+def _nameless_file(folder: str) -> BinaryIO | None:
     """Return a new file without a name, which vanishes with its process; None where the system has no such files."""
     try:
         number = os.open(folder, os.O_TMPFILE | os.O_RDWR, 0o666)
@@ -65,7 +108,7 @@ def _nameless_file(folder: Path) -> BinaryIO | None:
         os.close(number)
 
 
-def _name(handle: BinaryIO, path: Path) -> None:
+def _name(handle: BinaryIO, path: str) -> None:
     """Give an unnamed file a name, as in open(2), O_TMPFILE.
 
     With a folder's descriptor Python follows the link in /proc; the absolute path makes the folder irrelevant.

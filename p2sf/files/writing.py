@@ -12,9 +12,10 @@ from typing import Any, BinaryIO
 import numpy as np
 
 from p2sf.errors import ExportError
-from p2sf.files.atomic import write_whole
+from p2sf.files.atomic import replaceable, write_whole
 from p2sf.messages import Message
 
+LARGEST_READ = 64_000_000  # bytes of a file that are searched for a mark: some hundred pages as PDF
 FREE_SPACE = Message("free some space or choose another disk")
 WRITABLE_FOLDER = Message("choose a folder you may write to")
 ANOTHER_PLACE = Message("choose another place")
@@ -28,6 +29,7 @@ REMEDIES = {
     errno.ENOENT: Message("make the folder first or choose another"),
     errno.ENOTDIR: Message("choose a folder that is one"),
     errno.EISDIR: Message("give the name of a file in it"),
+    errno.EOPNOTSUPP: Message("give the name of a file"),
 }
 
 
@@ -50,11 +52,30 @@ def write_beside(path: str | PathLike, write: Callable[[BinaryIO], object]) -> P
 
 
 def check_place(path: str | PathLike) -> None:
-    """Raise ExportError if `write_beside` cannot succeed: the folder is missing, or ``path`` is a folder."""
-    target = Path(path).resolve()
-    wrong = errno.EISDIR if target.is_dir() else 0 if target.parent.is_dir() else errno.ENOENT
-    if wrong:
-        raise _unwritable(path, OSError(wrong, os.strerror(wrong)))
+    """Raise ExportError if `write_beside` cannot succeed: no such folder, or ``path`` is a folder, device or FIFO."""
+    try:
+        if replaceable(path) is None:
+            os.stat(os.path.dirname(os.path.realpath(path)))
+    except OSError as error:
+        raise _unwritable(path, error) from error
+
+
+def check_own(path: str | PathLike, mark: bytes) -> None:
+    """Raise ExportError if a file is there without the ``mark`` of those that this program writes.
+
+    For names that nobody has typed, and so nobody knows to be replaced.
+    """
+    try:
+        if replaceable(path) is None:
+            return
+        with open(path, "rb") as file:
+            own = mark in file.read(LARGEST_READ)
+    except OSError as error:
+        raise _unwritable(path, error) from error
+    if not own:
+        raise ExportError(
+            "{path} is there already and is not of this program; move it, or choose another name", path=str(path)
+        )
 
 
 def check_known_ending(path: str | PathLike[str], endings: Iterable[str]) -> None:

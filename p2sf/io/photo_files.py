@@ -117,7 +117,7 @@ def write_photo(
     values = srgb_from_linear(values) if encoding == "srgb" else values
     stored = values.astype(np.float16 if depth == "half" else np.float32) if floats else _whole(values, int(depth))
     if ending == EXR:
-        return write_beside(path, lambda handle: handle.write(_exr(stored, texts or {})))
+        return write_beside(path, lambda handle: handle.write(_exr(path, stored, texts or {})))
     return write_beside(path, lambda handle: handle.write(_encode(stored, ending, texts or {})))
 
 
@@ -325,16 +325,24 @@ def _from_exr(path: Path, size: int) -> np.ndarray:
     return np.asarray(grey[0])
 
 
-def _exr(stored: np.ndarray, texts: Mapping[str, str]) -> bytes:
+def _exr(path: str | os.PathLike[str], stored: np.ndarray, texts: Mapping[str, str]) -> bytes:
     """Return an OpenEXR file of (rows, columns[, 3]) float16 or float32, compressed without loss."""
-    with TemporaryDirectory() as folder:  # the library writes to paths only
-        path = Path(folder) / "picture.exr"
-        library = exr_library(path)
-        header = {**texts, "compression": library.ZIP_COMPRESSION, "type": library.scanlineimage}
-        channels = {"RGB" if stored.ndim == 3 else "Y": np.ascontiguousarray(stored)}
-        with library.File(header, channels) as file:
-            file.write(str(path))
-        return path.read_bytes()
+    library = exr_library(path)
+    header = {**texts, "compression": library.ZIP_COMPRESSION, "type": library.scanlineimage}
+    channels = {"RGB" if stored.ndim == 3 else "Y": np.ascontiguousarray(stored)}
+    try:
+        with TemporaryDirectory() as folder:  # the library writes to paths only
+            draft = Path(folder) / "picture.exr"
+            with library.File(header, channels) as file:
+                file.write(str(draft))
+            return draft.read_bytes()
+    except (OSError, RuntimeError) as error:
+        raise ExportError(
+            "{path} cannot be written, there is no room for it in the folder of temporary files ({reason}); free some "
+            "space there, or name another folder in TMPDIR",
+            path=str(path),
+            reason=str(getattr(error, "strerror", None) or error).rstrip("."),
+        ) from error
 
 
 def _from_tiff(path: Path) -> np.ndarray:

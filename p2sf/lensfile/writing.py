@@ -11,6 +11,7 @@ from typing import Any
 from p2sf.arguments import check_arguments
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
 from p2sf.errors import GeometryError, LensFileError
+from p2sf.files.writing import check_own
 from p2sf.glass.media import AIR, MIRROR, CatalogueGlass, ConstantIndex, Medium, ModelGlass
 from p2sf.lens.anamorphic import Anamorphic
 from p2sf.lens.even_terms import even_asphere, power_terms
@@ -36,6 +37,7 @@ from p2sf.paraxial.pupils import stop_rim
 from p2sf.pupil.mask import PupilMask
 from p2sf.raytrace.focusing import focused_distance, object_distance
 
+OWN_CATALOGUE = "glasses of the lens of this name, written by p2sf"
 SILICA_LABEL = "main/SiO2/Malitson"
 ZEMAX_APERTURES = {"entrance_pupil_diameter": "ENPD", "f_number": "FNUM"}
 UNLIMITED = 1e10  # mm: no rim
@@ -62,6 +64,8 @@ def write_lens(lens: Lens, path: str | os.PathLike[str]) -> None:
     ------
     LensFileError
         For another ending, and for what the format cannot hold.
+    ExportError
+        Where the glass catalogue beside a .zmx would take the place of one that is not of this program.
 
     Examples
     --------
@@ -89,7 +93,8 @@ def write_lens(lens: Lens, path: str | os.PathLike[str]) -> None:
     text = writers[ending](lens)
     catalogue = lens_to_agf(lens) if ending == ".zmx" else ""
     if catalogue:
-        write_text(catalogue, Path(path).with_suffix(".agf"))
+        check_own(Path(path).with_suffix(".agf"), OWN_CATALOGUE.encode())
+        write_text(f"CC {OWN_CATALOGUE}\n{catalogue}", Path(path).with_suffix(".agf"))
     write_text(text, path)
 
 

@@ -7,6 +7,7 @@ from PySide6.QtGui import QIcon
 from PySide6.QtWidgets import QApplication
 
 from p2sf_explorer.application.crash_dialog import UnexpectedErrors
+from p2sf_explorer.application.file_warnings import FileWarnings
 from p2sf_explorer.application.language_switch import LanguageSwitch
 from p2sf_explorer.application.open_events import OpenEvents
 from p2sf_explorer.application.recovery import offer_rescued, session_to_open
@@ -40,6 +41,7 @@ def run_application(asked: State | None) -> int:
         lambda: switch.window, lambda: switch.window.store.state, lambda: keepers[0].keep(), application
     )
     errors.install()
+    FileWarnings(lambda told: switch.window.refuse(told), application).install()
     OpenEvents(
         lambda path: switch.window.commands.open_path(path), lambda text: switch.window.sharing.open(text), application
     )

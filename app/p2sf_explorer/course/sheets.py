@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from p2sf.errors import ExportError
-from p2sf.files.writing import write_beside
+from p2sf.files.writing import check_own, write_beside
 from p2sf.messages import Message, Style
 from p2sf_explorer.compute.layout import layout
 from p2sf_explorer.compute.setup import paraxial_setup
@@ -33,6 +33,7 @@ UNIT_GAP = re.compile(r"(?<=\d) (?=(?:[nµmk]?m|%|λ|waves?|Wellen?)(?!\w))")
 ROOM = {NumericAnswer: 4, ChoiceAnswer: 2, OrderAnswer: 1, GoalAnswer: 3, type(None): 3}
 """Lines to write on below a question, by the kind of its answer."""
 ENDINGS = ".pdf", "_solutions.pdf"
+CREATOR = "P2SF Explorer"
 
 
 class SheetWriter:
@@ -244,6 +245,7 @@ def write_course(
 
 
 def _write_sheets(path: Path, lecture: Lesson, paper: Paper, solved: bool) -> Path:
-    document = pdf_of(lecture_sheets(lecture, paper, solved), {"Title": lecture.title, "Creator": "P2SF Explorer"})
+    document = pdf_of(lecture_sheets(lecture, paper, solved), {"Title": lecture.title, "Creator": CREATOR})
+    check_own(path, CREATOR.encode())
     write_beside(path, lambda handle: handle.write(document))
     return path

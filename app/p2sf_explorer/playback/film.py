@@ -1,11 +1,13 @@
 """Write frames as an animated GIF, an MP4 or numbered PNG files, whole or not at all. No Qt in here."""
 
+import errno
 import os
 import secrets
 import shutil
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 from itertools import chain
 from pathlib import Path
 from queue import Empty, Queue
@@ -14,14 +16,16 @@ from threading import Event
 from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 
 from p2sf.errors import ExportError
-from p2sf.files.writing import check_place, write_beside
+from p2sf.files.writing import check_own, check_place, write_beside
 from p2sf.messages import Alternatives
 
 if TYPE_CHECKING:
     from PIL.Image import Image
+    from PIL.PngImagePlugin import PngInfo
 
 ENDINGS = (".gif", ".mp4", ".png")
 EVEN = "pad=ceil(iw/2)*2:ceil(ih/2)*2"  # H.264 halves the resolution of colour, so a film has even sides
+OWN_FRAME = b"P2SF Explorer"  # in the text chunk of every frame
 CRF = "18"  # the quality at which H.264 shows no loss
 WAITING = 3  # frames between the window and the writer
 PATIENCE_S = 0.1
@@ -127,8 +131,11 @@ def _write_gif(frames: Iterator[FilmFrame], handle: BinaryIO, frame_ms: int) -> 
 
 
 def _write_mp4(frames: Iterator[FilmFrame], handle: BinaryIO, frame_ms: int) -> None:
-    """Write an H.264 film; ffmpeg needs a file of its own, which is copied once it is whole."""
-    first = _first(frames)
+    """Write an H.264 film; ffmpeg needs a file of its own, which is copied once it is whole.
+
+    ffmpeg's end is not told by imageio-ffmpeg: where its folder had no room, the film has fewer frames than were sent.
+    """
+    first, sent = _first(frames), 0
     with TemporaryDirectory() as folder:
         made = Path(folder) / "film.mp4"
         writer = _ffmpeg().write_frames(
@@ -143,10 +150,33 @@ def _write_mp4(frames: Iterator[FilmFrame], handle: BinaryIO, frame_ms: int) -> 
         try:
             for frame in chain([first], frames):
                 writer.send(frame.rgb)
+                sent += 1
         finally:
             writer.close()
+        if _frames_in(made) != sent:
+            raise OSError(errno.ENOSPC, "there is no room for it in the folder of temporary files")
         with made.open("rb") as film:
             shutil.copyfileobj(film, handle)
+
+
+def _frames_in(film: Path) -> int:
+    """Return how many frames a film has, 0 for one that cannot be read."""
+    try:
+        return int(_ffmpeg().count_frames_and_secs(str(film))[0])
+    except (OSError, RuntimeError):
+        return 0
+
+
+def _frame_mark() -> "PngInfo":
+    from PIL.PngImagePlugin import PngInfo
+
+    found = PngInfo()
+    found.add_text("Software", OWN_FRAME.decode())
+    return found
+
+
+def _copy(source: Path, handle: BinaryIO) -> None:
+    handle.write(source.read_bytes())
 
 
 def _write_pngs(frames: Iterator[FilmFrame], path: Path) -> tuple[Path, ...]:
@@ -156,9 +186,10 @@ def _write_pngs(frames: Iterator[FilmFrame], path: Path) -> tuple[Path, ...]:
         folder.mkdir()
         for number, frame in enumerate(frames, 1):
             made.append(path.with_name(f"{path.stem}_{number:04d}.png"))
-            _picture(frame).save(folder / made[-1].name)
+            check_own(made[-1], OWN_FRAME)
+            _picture(frame).save(folder / made[-1].name, pnginfo=_frame_mark())
         for target in made:
-            os.replace(folder / target.name, target)
+            write_beside(target, partial(_copy, folder / target.name))
     except OSError as error:
         raise ExportError(
             "{path} cannot be written, {why}; choose another place",

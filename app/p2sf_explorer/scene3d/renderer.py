@@ -19,7 +19,7 @@ from vtkmodules.vtkCommonCore import vtkLogger, vtkUnsignedCharArray
 from vtkmodules.vtkRenderingCore import vtkRenderWindow
 
 from p2sf.errors import ExportError, P2SFError
-from p2sf.files.writing import check_place, write_beside
+from p2sf.files.writing import check_own, check_place, write_beside
 from p2sf.messages import Alternatives
 from p2sf_explorer.charts.plots import as_indices, lookup
 from p2sf_explorer.charts.theme import Tokens
@@ -174,6 +174,9 @@ def write_drafted(path: str, write: Callable[[str], object]) -> None:
         ) from error
     if not all(drafts.get(name) for name in {target.name, *drafts}):
         raise ExportError("{path} cannot be written, the draft beside it stayed empty; choose another disk", path=path)
+    for name, draft in drafts.items():
+        if name != target.name:  # the materials of an OBJ; VTK says in the first line that it wrote them
+            check_own(target.with_name(name), draft.split(b"\n")[0])
     for name in sorted(drafts, key=lambda name: name == target.name):
         write_beside(target.with_name(name), partial(_write, drafts[name] + b"\n"))
 
