@@ -29,9 +29,9 @@ class Builds:
 
     ``rms_waves`` (builds, fields): of the displayed wavefront without piston and tilt, as in `zernike_fit`.
     ``strehl``: |mean of exp(2πiW)|² of the phase at the focus without these, weighted as the field, and 0 beyond
-    `SUMMED_RMS`. ``boresight_um`` (builds, fields, 2): shift of the image. ``mtf`` (builds, fields, 2): the
-    contrast at one frequency of patterns along x (sagittal) and y (tangential),
-    NaN unless requested.
+    `SUMMED_RMS`; `Psf.strehl` is of the peak, which is higher if it is elsewhere. ``boresight_um`` (builds, fields,
+    2): shift of the image. ``mtf`` (builds, fields, 2): the contrast at one frequency of patterns along x (sagittal)
+    and y (tangential), NaN unless requested.
     """
 
     errors: np.ndarray

@@ -37,7 +37,7 @@ def test_what_hurts_most_comes_first_and_more_of_it_hurts_more(answer):
 def test_a_yield_is_said_with_its_error(capsys):
     main([*SMALL, "--builds", "500", "--strehl", "0.5", "--rms-waves", "0.3"])
     said = capsys.readouterr().out
-    assert "% keep RMS ≤ 0.3 and Strehl ratio ≥ 0.5 in all fields" in said and "±" in said
+    assert "% keep RMS ≤ 0.3 and Strehl ratio without tilt ≥ 0.5 in all fields" in said and "±" in said
 
 
 def test_the_percentiles_are_of_the_criterion_too(answer, capsys):

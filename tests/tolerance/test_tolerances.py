@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from p2sf.cli.tolerances import COLUMNS, STREHL, WORST
 from p2sf.errors import GeometryError, RequestError
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, indices, with_f_number, with_mask, with_sensor
@@ -413,6 +414,20 @@ def test_a_phase_in_the_stop_is_in_the_waves():
     assert found.rms_waves[0, 0] == pytest.approx(0.05, rel=1e-6)
     square = (2 * np.pi * 0.05) ** 2
     assert found.strehl[0, 0] == pytest.approx(1 - square + square**2 / 2, abs=2e-3)
+
+
+def test_strehl_without_tilt_is_named_since_the_peak_of_coma_is_higher():
+    """Of Zernike's coma on a grid of the test's own: the light at the point of least variance, and the peak."""
+    waves = 0.3
+    lens = with_mask(in_the_stop(ConstantIndex(1.5), None), PupilMask(zernike_um=(0.0,) * 6 + (waves,)))
+    found = evaluate(differentials(lens, [Source(wavelength_um=1.0)], ()), np.zeros((1, 0))).strehl[0, 0]
+    x, y = np.meshgrid(*2 * [np.arange(-399.5, 400) / 400])
+    x, y = x[x**2 + y**2 < 1], y[x**2 + y**2 < 1]
+    coma = waves * np.sqrt(8) * (3 * (x**2 + y**2) - 2) * y
+    along = [abs(np.exp(2j * np.pi * (coma + tilt * y)).mean()) ** 2 for tilt in np.linspace(0, 1.5, 61)]
+    assert found == pytest.approx(along[0], abs=2e-3)  # of the quadrature, as in the test above
+    assert max(along) > 10 * found
+    assert all("without tilt" in words["strehl"] for words in (COLUMNS, WORST)) and "peak" in STREHL
 
 
 def test_contrast_turns_with_a_decentre(known):
