@@ -117,8 +117,9 @@ def test_what_is_kept_is_of_the_picture_and_nothing_of_the_lens(tmp_path, change
     assert np.abs(kept - anew).max() < 2e-4 < 1e-3 < np.abs(kept - before).max()  # the spline of a constant
 
 
-def test_depths_count_through_the_lens_alone():
-    assert asked().depths.source == "steps" and asked(photo_show="psfs").depths.source == ""
+def test_depths_count_through_the_lens_and_where_that_is_sharpened():
+    assert asked().depths.source == asked(photo_show="sharpened").depths.source == "steps"
+    assert all(asked(photo_show=show).depths.source == "" for show in ("psfs", "axis"))
     assert scene_of(asked()).near_mm == 1000.0 and scene_of(asked()).far_mm == 10000.0
     backwards = asked(photo_near_mm=9000.0, photo_far_mm=3000.0)
     assert (scene_of(backwards).near_mm, scene_of(backwards).far_mm) == (3000.0, 9000.0)
@@ -158,6 +159,9 @@ def test_pixels_are_the_levels_of_srgb():
 def test_the_badge_says_the_error_and_depths_have_their_controls(window, image_panel, qtbot):
     row = image_panel.depth_row
     assert not row.near.isVisible() and not row.meaning.isVisible()
+    for show, usable in (("axis", False), ("sharpened", True), ("psfs", False), ("lens", True)):
+        window.store.update(photo_show=show)
+        assert image_panel.depth_row.source.isEnabled() == usable
     window.store.update(photo_depths="slope", photo_near_mm=800.0)
     qtbot.waitUntil(lambda: not image_panel._stale())
     assert f"{100 * image_panel._answer.error:.2g}" in image_panel.widget.readout.text()
