@@ -21,7 +21,6 @@ from p2sf_explorer.state.scales import (
     read_distance,
     read_f_number,
     read_number,
-    refuse_two_readings,
     significant,
     ticks,
     with_sign,
@@ -85,12 +84,7 @@ def _plain(key: str) -> Callable[[State, Ranges], float]:
 def _reader(words: str, **units: float) -> Callable[[str], float]:
     """Return a reader of numbers in the quantity's own unit or followed by one of these units, with their factors."""
     known = {"": 1.0, **units}
-
-    def read(text: str) -> float:
-        refuse_two_readings(text, words)
-        return read_number(text, words, known)
-
-    return read
+    return lambda text: read_number(text, words, known)
 
 
 def _distances(ranges: Ranges) -> Vergence:

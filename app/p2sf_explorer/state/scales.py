@@ -8,14 +8,12 @@ from math import ceil, exp, floor, inf, isfinite, isinf, log, log10
 from p2sf.conventions import FARTHEST_MM
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
-from p2sf_explorer.i18n.tr import decimal_separator
 
 INFINITE = ("∞", "inf", "infinity")
 MM_PER_UNIT = {"": 1.0, "mm": 1.0, "cm": 10.0, "m": 1000.0, "km": 1e6, "µm": 1e-3, "um": 1e-3}
 NO_UNIT = {"": 1.0}
 NUMBER = re.compile(r"([-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:e[-+]?\d+)?)\s*(\D*)")  # and what stands behind it
 POWER = re.compile(r"(?<!\s)\s*+[×x*·]\s*10\^?([-+]?\d+|[⁻⁺]?[⁰¹²³⁴-⁹]+)")  # 6.7×10^-3, 6.7·10⁻³
-THOUSANDS = re.compile(r"[-+−]?[1-9]\d{0,2}([.,])\d{3}(?!\d)")  # perhaps, by the language
 RAISED = str.maketrans("⁻⁺⁰¹²³⁴⁵⁶⁷⁸⁹", "-+0123456789")
 SHORTEST_TRAVEL = 1e-300  # to the end: the division overflows nowhere
 FAR_MM = 1e10  # as far as from pole to equator: more digits than anybody reads
@@ -219,7 +217,6 @@ def _multiples(step: float, low: float, high: float) -> range:
 
 def read_distance(text: str) -> float:
     """Return millimetres of "2 m", "350", "∞"; P2SFError otherwise."""
-    refuse_two_readings(text, "distance")
     plain = text.strip().lower()
     if plain in INFINITE:
         return inf
@@ -228,21 +225,6 @@ def read_distance(text: str) -> float:
     if unit not in MM_PER_UNIT:
         raise P2SFError('the distance "{text}" has an unknown unit; write mm, cm, m or km, or ∞', text=text)
     return read_number(number, "distance") * MM_PER_UNIT[unit]
-
-
-def refuse_two_readings(text: str, words: str) -> None:
-    """Raise P2SFError if what stands before three digits may separate thousands in the language, or decimals."""
-    point = decimal_separator()
-    found = THOUSANDS.match(text.strip())
-    if found and found[1] != point:
-        number = found[0]
-        raise P2SFError(
-            'the {quantity} "{text}" can mean two numbers; write {thousands} or {decimals}',
-            quantity=Message(words),
-            text=text.strip(),
-            thousands=number.replace(found[1], ""),
-            decimals=number.replace(found[1], point),
-        )
 
 
 def read_f_number(text: str) -> float:

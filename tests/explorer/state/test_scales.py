@@ -118,16 +118,3 @@ def test_ticks_are_short_and_say_their_values(decade, span):
 @pytest.mark.parametrize("mm", [9.99e9, 1e10, 3.844e11, 1e99, 1.7e308])
 def test_a_distance_is_never_longer_than_a_dozen_letters(mm):
     assert len(written_distance(mm)) <= 13 and read_distance(written_distance(mm)) == pytest.approx(mm, rel=1e-3)
-
-
-@pytest.mark.parametrize(
-    ("point", "text", "both"), [(",", "1.500 mm", ("1500", "1,500")), (".", "1,500", ("1500", "1.500"))]
-)
-def test_a_number_with_two_readings_is_refused_and_both_are_written(monkeypatch, point, text, both):
-    """By the rule of both languages: one separates thousands by what the other has before decimals."""
-    monkeypatch.setattr("p2sf_explorer.state.scales.decimal_separator", lambda: point)
-    with pytest.raises(P2SFError, match="two numbers") as said:
-        read_distance(text)
-    assert all(one in str(said.value) for one in both)
-    assert [read_distance(one) for one in both] == [1500.0, 1.5]
-    assert [read_distance(one) for one in ("0.500", "0,500", "1.50", "1,5", "1500.25")] == [0.5, 0.5, 1.5, 1.5, 1500.25]

@@ -971,7 +971,6 @@
 <message><source>Strehl ratio {value}</source><translation>Strehl-Verhältnis {value}</translation></message>
 <message><source>Strehl ratio without tilt</source><translation>Strehl-Verhältnis ohne Kippung</translation></message>
 <message><source>Strehl ratio without tilt ≥ {limit}</source><translation>Strehl-Verhältnis ohne Kippung ≥ {limit}</translation></message>
-<message><source>the {quantity} "{text}" can mean two numbers; write {thousands} or {decimals}</source><translation>{quantity}: "{text}" kann zwei Zahlen bedeuten; {thousands} oder {decimals} schreiben</translation></message>
 <message><source>Strehl without tilt</source><translation>Strehl ohne Kippung</translation></message>
 <message><source>Strehl {strehl}</source><translation>Strehl {strehl}</translation></message>
 <message><source>Strehl {value}</source><translation>Strehl {value}</translation></message>
