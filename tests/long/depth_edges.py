@@ -65,8 +65,9 @@ def edge_plan(focus: str) -> Plan:
 
 
 def textured(near: np.ndarray) -> np.ndarray:
+    """Return a texture, lighter on the near side, and lit so that nothing in it is darker than no light."""
     texture = gaussian_filter(np.random.default_rng(3).normal(size=near.shape), 3)
-    found: np.ndarray = np.where(near, 0.7, 0.3) + 0.15 * texture / texture.std()
+    found: np.ndarray = np.where(near, 1.0, 0.6) + 0.15 * texture / texture.std()
     return found
 
 
