@@ -30,7 +30,8 @@ STEPS_TOGETHER = 2  # of all rays at once; those that need more are fewer, and t
 AIM_ERROR = 1e-10  # of the pupil's radius: the most that an entrance point may be off
 CHIEF_AIM_ERROR = 1e-6  # the same for the chief ray where other rays are only looked for from there
 SUM_AIM_ERROR = 1e-6  # the same for rays whose phase and frequency are taken as they are, only their cell is off
-DIFFERENCE = 1e-6  # of the pupil's radius: the determinant, and so the launch weight, is good to that
+DIFFERENCE = 1e-5  # of the pupil's radius: of central differences, good to its square and to rounding over it
+MOST_CHANGE = 0.01  # of the gain over one `DIFFERENCE`; among rays of the pupil it changes by less than 1e-3
 ROUNDING_STEP = 1e-8  # of the distances in the lens, for pupils so small that the step would meet their rounding
 CONTINUATION = (0.2, 0.4, 0.6, 0.8, 1.0)
 ROUGH_ORDER, ROUGH_NODES = 9, (6, 20)  # a guess to 1e-6 of the radius for most lenses, from 60 rays
@@ -39,7 +40,7 @@ FIELDS = np.cos((np.arange(5) + 0.5) * (np.pi / 5))  # of these, −1 … 1 over
 FINE = (15, (9, 34)), (21, (12, 46))  # orders and nodes of maps that may stand for aiming
 GUESS = 27, (16, 60)  # of the map from which many rays take one step where none stands for aiming
 NEARLY = 1e-6  # of the pupil's radius: a map that is farther off is not exact at the next order either
-WEIGHT_ERROR = 1e-5  # the most that a launch weight by a map may be off, on the rim
+WEIGHT_ERROR = 1e-7  # the most that a launch weight by a map may be off, on the rim
 RIM_RAYS = 9  # by which maps are judged
 LAST_MOVE = 0.3  # of the root of the error allowed: a Newton step leaves its square, times the map's curvature
 SEARCH_RADII, SEARCH_POINTS = 4.0, 33  # of the paraxial pupil, where the chief ray is looked for; points a side
@@ -307,8 +308,8 @@ def _aimed_to_sensor(
 ) -> tuple[Beam, FloatOrArray, Index] | None:
     """Aim rays by a step or two of Newton's method, and carry them on; None where these do not do.
 
-    The ray of each guess and its two neighbours, by which the step is found, go on to the sensor. So small a step
-    changes what arrives there in proportion, and the aimed ray itself need not be traced.
+    The ray of each guess and its neighbours, by which the step is found, go on to the sensor. So small a step changes
+    what arrives there in proportion, and the aimed ray itself need not be traced.
     """
     enter = entrance(lens, source, stop)
     at, step = int(np.max(enter.stop.surface)), _difference_mm(enter)
@@ -316,13 +317,16 @@ def _aimed_to_sensor(
     for _ in range(STEPS_TOGETHER):
         launched = _through(enter, *_beside(x, y, step))
         beam = run(lens, start(launched), enter.index, last=at)
-        move_x, move_y, (a, b, c, d) = _newton_step(beam, (goal[0] - beam.x[0], goal[1] - beam.y[0]), step)
-        gain = a * d - b * c
-        if ((np.hypot(move_x, move_y) <= _move_mm(enter, AIM_ERROR)) & (gain > 0)).all():
+        move_x, move_y, (a, b, c, d), sound = _newton_step(beam, (goal[0] - beam.x[0], goal[1] - beam.y[0]), step)
+        if ((np.hypot(move_x, move_y) <= _move_mm(enter, AIM_ERROR)) & sound).all():
             run(lens, beam, enter.index, first=at + 1)
             beam.path += launched.path
             x, y = x + move_x, y + move_y
-            return _interpolate_rays(beam, move_x / step, move_y / step), _launch_weight(enter, x, y, gain), enter.index
+            return (
+                _interpolate_rays(beam, move_x / step, move_y / step),
+                _launch_weight(enter, x, y, a * d - b * c),
+                enter.index,
+            )
         x, y = x + move_x, y + move_y
     return None
 
@@ -348,18 +352,19 @@ def _mapped_to_sensor(
 def _interpolate_rays(beam: Beam, share_x: np.ndarray, share_y: np.ndarray) -> Beam:
     """Return rays by linear interpolation between those of `_beside`; one fails if it or a neighbour does."""
 
-    def interpolate(here: np.ndarray, right: np.ndarray, up: np.ndarray) -> np.ndarray:
-        between: np.ndarray = right - here
-        between *= share_x
-        between += share_y * (up - here)
+    def interpolate(rows: np.ndarray) -> np.ndarray:
+        here, right, left, up, down, _ = rows
+        between: np.ndarray = right - left
+        between *= share_x / 2
+        between += share_y / 2 * (up - down)
         between += here
         return between
 
-    place, ray = (interpolate(rows[:, 0], rows[:, 1], rows[:, 2]) for rows in (beam.place, beam.ray))
+    place, ray = (interpolate(rows.swapaxes(0, 1)) for rows in (beam.place, beam.ray))
     out = Beam(place, ray, beam.wavelength_um)
-    out.path = interpolate(*beam.path)
+    out.path = interpolate(beam.path)
     if isinstance(beam.transmission, np.ndarray):
-        out.transmission, out.dimmed = interpolate(*beam.transmission), beam.dimmed
+        out.transmission, out.dimmed = interpolate(beam.transmission), beam.dimmed
     if beam.status.any():
         for status, surface in zip(beam.status, beam.failed_surface, strict=True):
             fresh = (out.status == Status.PASSED) & (status != Status.PASSED)
@@ -401,11 +406,9 @@ def _newton(
     """
     step = _difference_mm(enter)
     beam = _at_stop(lens, enter, _beside(*guess, step), part)
-    move_x, move_y, slopes = _newton_step(beam, (goal[0] - beam.x[0], goal[1] - beam.y[0]), step)
+    move_x, move_y, slopes, sound = _newton_step(beam, (goal[0] - beam.x[0], goal[1] - beam.y[0]), step)
     far = np.hypot(move_x, move_y)
-    found = _Aim(guess[0] + move_x, guess[1] + move_y, *slopes, ~(far <= enough))
-    # A gain that is not positive belongs to another sheet, where rays of the pupil have crossed.
-    found.missed[~(found.gain > 0)] = True
+    found = _Aim(guess[0] + move_x, guess[1] + move_y, *slopes, ~((far <= enough) & sound))
     again = (far > enough).any(tuple(range(far.ndim - 1)))
     if steps > 1 and again.any():
         some = (goal[0][..., again], goal[1][..., again]), (found.x[..., again], found.y[..., again])
@@ -440,11 +443,17 @@ def _difference_mm(enter: Entrance) -> float:
 
 
 def _beside(x: np.ndarray, y: np.ndarray, step: float) -> Point:
-    """Return each point and its neighbours ``step`` mm away in x and in y, on a new first axis."""
-    beside = np.empty((2, 3, *x.shape))
+    """Return each point and its neighbours to the right, left, top, bottom and top right, on a new first axis.
+
+    They are ``step`` mm away in x and in y.
+    """
+    beside = np.empty((2, 6, *x.shape))
     beside[0], beside[1] = x, y
     beside[0, 1] += step
-    beside[1, 2] += step
+    beside[0, 2] -= step
+    beside[1, 3] += step
+    beside[1, 4] -= step
+    beside[:, 5] += step
     return beside[0], beside[1]
 
 
@@ -454,13 +463,35 @@ def _at_stop(lens: Lens, enter: Entrance, points: Point, part: float = 1.0) -> B
     return run(lens, rays, enter.index, last=int(np.max(enter.stop.surface)))
 
 
-def _newton_step(beam: Beam, miss: Point, step: float) -> tuple[np.ndarray, np.ndarray, Slopes]:
-    """Return Newton's step from the landing points of a ray and its two neighbours, and ((a, b), (c, d)) of `_Aim`."""
-    a, c = (beam.x[1] - beam.x[0]) / step, (beam.y[1] - beam.y[0]) / step
-    b, d = (beam.x[2] - beam.x[0]) / step, (beam.y[2] - beam.y[0]) / step
+def _newton_step(beam: Beam, miss: Point, step: float) -> tuple[np.ndarray, np.ndarray, Slopes, np.ndarray]:
+    """Return Newton's step from the landing points of a ray and its neighbours, and ((a, b), (c, d)) of `_Aim` there.
+
+    Then whether a small step leads to a ray of the pupil: a gain that is not positive belongs to another sheet, where
+    rays have crossed, and one that changes steeply to a ray that grazes a surface.
+
+    Second derivatives carry these along the step: those at the guess would make launch weights depend on what was
+    guessed, and so on how many rays are asked for together.
+    """
+    (a, b, along_x), (c, d, along_y) = (_derivatives(landed, step) for landed in (beam.x, beam.y))
     area: np.ndarray = a * d - b * c
     with np.errstate(invalid="ignore", divide="ignore"):
-        return (d * miss[0] - b * miss[1]) / area, (a * miss[1] - c * miss[0]) / area, (a, b, c, d)
+        move_x, move_y = (d * miss[0] - b * miss[1]) / area, (a * miss[1] - c * miss[0]) / area
+        more = [second[0] * move_x + second[1] * move_y for second in (*along_x, *along_y)]
+    a, b, c, d = a + more[0], b + more[1], c + more[2], d + more[3]
+    change = np.abs(a * d - b * c - area) * step
+    return move_x, move_y, (a, b, c, d), (area > 0) & (change <= MOST_CHANGE * area * np.hypot(move_x, move_y))
+
+
+def _derivatives(landed: np.ndarray, step: float) -> tuple[np.ndarray, np.ndarray, tuple[Point, Point]]:
+    """Return the derivatives in x and in y from values at the points of `_beside`, and the derivatives of each."""
+    here, right, left, up, down, corner = landed
+    by_x, by_y, square = (right - left) / (2 * step), (up - down) / (2 * step), step * step
+    xx, yy, xy = (
+        (right + left - 2 * here) / square,
+        (up + down - 2 * here) / square,
+        (corner - right - up + here) / square,
+    )
+    return by_x, by_y, ((xx, xy), (xy, yy))
 
 
 def _guess(lens: Lens, source: Source | Sources, enter: Entrance, stop: Stop | None, xi: Nodes, eta: Nodes) -> Point:
@@ -627,7 +658,6 @@ def _map_through_rays(
         return None, inf, inf
     true = rays.x, rays.y, np.asarray(rays.launch)
     x, y = (rows @ (at.share * column[:count]) for rows, column in zip((at.of_x, at.of_y), true[:2], strict=True))
-    # By the map's own areas: those by differences are off by some 1e-6, which do not cancel without symmetry.
     found = _with_launch(enter, x, y, at)
     return found, *_errors_on_rim(found.at(*held), true, enter)
 

@@ -6,6 +6,7 @@ from math import inf
 import numpy as np
 import pytest
 
+import p2sf
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface, with_aim
 from p2sf.lens.source import Source
@@ -17,6 +18,7 @@ from p2sf.raytrace.aiming import Sources, entrance, pupil_rays
 from p2sf.raytrace.field_curves import heights
 from p2sf.raytrace.fit import fit, levels
 from p2sf.raytrace.pencil import Status, hexapolar, pencil, trace
+from tests.support.lenses.rewritten import folded
 from tests.support.rays.pencils import disc
 
 # They image near objects only, and the pupil of the first is so far off that 1° of field lies outside its glass.
@@ -248,3 +250,36 @@ def test_hexapolar_points_stand_for_equal_areas(rings):
     # Within each ring's outer edge lies the share of the area that its points and those inside have.
     edges = np.array([1 + 3 * k * (k + 1) for k in range(rings)]) / count
     assert [np.sum(square < edge) for edge in edges] == [1 + 3 * k * (k + 1) for k in range(rings)]
+
+
+@pytest.mark.parametrize(("name", "angle"), [("petzval", 0.0), ("petzval", 7.0), ("fast_gauss_f14", 10.0)])
+@pytest.mark.parametrize("write", [lambda lens: lens, folded], ids=["plain", "folded"])
+def test_weights_do_not_depend_on_the_rays_that_are_asked_for_together(name, angle, write):
+    lens = write(p2sf.load_lens(name))
+    source = Source(field_deg=angle, wavelength_um=lens.reference_wavelength_um)
+    random = np.random.default_rng(44)
+    radius, turn = np.sqrt(random.random(1200)), 2 * np.pi * random.random(1200)
+    xi, eta = radius * np.cos(turn), radius * np.sin(turn)
+    together = pupil_rays(lens, source, xi, eta).launch[:100]
+    for block in (1, 20, 60, 600):  # without a map, by a rough one, by one of higher order
+        parts = [pupil_rays(lens, source, xi[k : k + block], eta[k : k + block]).launch for k in range(0, 100, block)]
+        np.testing.assert_allclose(np.concatenate(parts)[:100], together, rtol=5e-8)  # of a map half WEIGHT_ERROR
+
+
+def test_weights_are_ratios_of_areas_however_strongly_the_map_bends():
+    lens = p2sf.load_lens("petzval")
+    source = Source(field_deg=7.0, wavelength_um=lens.reference_wavelength_um)
+    turn = np.linspace(0, 2 * np.pi, 40, endpoint=False)
+    for radius in (0.5, 0.98):
+        middle = np.array([0.0, radius])  # of a circle about a point towards the rim
+        ring = 0.01 * np.array([np.cos(turn), np.sin(turn)]) + middle[:, None]
+        rays, centre = (pupil_rays(lens, source, *points) for points in (ring, middle[:, None]))
+        # The area of a curve by its Fourier series: of 40 points it is that of a smooth curve to rounding.
+        x, y = (np.fft.fft(each) / turn.size for each in (rays.x, rays.y))
+        order = np.fft.fftfreq(turn.size, 1 / turn.size)
+        area = 2 * np.pi * float((order * np.imag(x * np.conj(y))).sum())
+        enter = entrance(lens, source)
+        share = area / (np.pi * 0.01**2 * float(enter.radius.item()) ** 2)
+        # The mean over a disc of radius r is the middle's plus r²/8 of the Laplacian, taken from weights on its rim.
+        mean = float(centre.launch.item() + rays.launch.mean()) / 2
+        assert share == pytest.approx(mean, rel=1e-9)
