@@ -204,7 +204,7 @@ class Card(QFrame):
                 self._put(tool, fits)
         self.readout.setWordWrap(False)  # so that its hint is the width of one line
         words = self.readout.sizeHint().width() if self.readout.text() else 0
-        self._put_readout(words + (tools if fits else 0) <= room)
+        self._put_readout(not words or words + (tools if fits else 0) <= room)  # no words, no line
 
     def _title_room(self) -> int:
         """Return the width of the title's line."""

@@ -10,6 +10,7 @@ from p2sf.messages import Message
 from p2sf_explorer.charts.theme import LIGHT, stylesheet
 from p2sf_explorer.state.state import change
 from p2sf_explorer.state.workspaces import WORKSPACES, on_stage, with_workspace
+from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.chart_card import TurningRow
 from p2sf_explorer.widgets.readout import Columns, FactTable
 from p2sf_explorer.widgets.value_edit import ValueList
@@ -64,6 +65,32 @@ def test_tables_stand_below_one_another_where_a_name_would_be_cut(qapp):
         first, second = (table.geometry() for table in tables)
         assert (first.top() == second.top(), first.left() == second.left()) == (beside, not beside)
         assert not first.intersects(second)
+
+
+@pytest.mark.parametrize("width", [60, 400])
+def test_an_empty_readout_takes_no_line(qapp, width):
+    card = Card("Overlays")
+    card.resize(width, 200)
+    card.show()
+    QApplication.processEvents()
+    bare = card.column.minimumSize().height()
+    card.readout.hide()
+    QApplication.processEvents()
+    assert card.column.minimumSize().height() == bare
+    card.readout.show()
+    card.set_readout("Strehl 0.8")
+    QApplication.processEvents()
+    assert (card.column.minimumSize().height() > bare) == (width == 60), "below the title where it is narrow"
+
+
+def test_a_panel_keeps_its_height_while_its_curves_arrive(window):
+    window.open_panel("curves")
+    QApplication.processEvents()
+    heights, card = set(), window.panels["curves"].widget
+    while window.is_busy():
+        QApplication.processEvents()
+        heights.add(card.height())
+    assert len(heights) == 1 and window.panels["curves"].legend.text()
 
 
 @pytest.mark.parametrize("size", [(600, 300), (300, 600)])

@@ -1,7 +1,7 @@
 """A window that serves many tests, each of which finds it as it was at first."""
 
-from PySide6.QtCore import QEvent
-from PySide6.QtWidgets import QApplication
+from PySide6.QtCore import QEvent, QRect
+from PySide6.QtWidgets import QApplication, QWidget
 
 from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.panels import BackgroundPanel
@@ -19,7 +19,14 @@ def settled(panel, qtbot) -> None:
 def at_rest(window, qtbot) -> None:
     """Wait until nothing that the window shows is still being computed, and all of it is laid out."""
     qtbot.waitUntil(lambda: not window.is_busy())
-    QApplication.processEvents()
+    before: list[QRect] = []
+    while before != (before := places(window)):  # each round of events may move what the next one lays out
+        QApplication.processEvents()
+
+
+def places(window) -> list[QRect]:
+    """Return where every widget on show is."""
+    return [part.geometry() for part in window.findChildren(QWidget) if part.isVisible()]
 
 
 def start_again(window, state) -> None:
