@@ -18,7 +18,6 @@ from p2sf.pupil.zernike import powers
 
 REACH_NODES = 24, 48
 FOLDED = 0.1  # of the light: nodes that lie inside or not count it to some 3 % where the polynomials hold
-STRAY = 2e-3  # of the light may land outside the window: negligible in L2, and the rims of fast lenses scatter far
 SURELY_CLEAR = 0.05  # of 1 − (height/rim)²: a rim that stays above at nodes clips nothing between them
 FORMS = "phase", "eta", "xi", "weight", "rims"
 SHARED = "basis", "method", "numbers", "mask"
@@ -134,16 +133,8 @@ def _as_stack(pupil: PixelPupil | PupilStack) -> PupilStack:
     return PupilStack(**values)
 
 
-def stray_of(mask: PupilMask) -> float:
-    """Return the part of the light that may land outside the window: none behind a mask that is not round.
-
-    What is dark in some directions only may be where most of the light is.
-    """
-    return STRAY * mask.round
-
-
 def with_reach(pupils: PupilStack, counts: tuple[int, int] = REACH_NODES) -> PupilStack:
-    """Return the pupils with the radius in µm that holds all light but STRAY: rays land at −∂w/∂f (Hamilton).
+    """Return the pupils with the radius in µm within which all rays land: at −∂w/∂f (Hamilton).
 
     Only frequencies of the pupil count, since its polynomials mean nothing beyond its rim. Raises GeometryError where
     they come back there, and would let light through that does not exist; fewer nodes, whose ``counts`` are given, do
@@ -169,7 +160,7 @@ def with_reach(pupils: PupilStack, counts: tuple[int, int] = REACH_NODES) -> Pup
             share=worst,
         )
     distance = np.hypot(phase_u, phase_v) / pupils.radius[:, None]
-    mask, stray = pupils.mask, stray_of(pupils.mask)
+    mask = pupils.mask
     if not mask.clear:
         xi, eta = pupils.xi @ at.values.fx, pupils.eta @ at.values.fy
         round_part = mask.round_part
@@ -180,13 +171,7 @@ def with_reach(pupils: PupilStack, counts: tuple[int, int] = REACH_NODES) -> Pup
             np.sqrt(xi_u**2 + xi_v**2 + eta_u**2 + eta_v**2) / (pupils.radius * np.abs(pupils.wavelength_um))[:, None]
         )
         distance += np.hypot(slopes.path_radial_um, slopes.path_angular_um) * steepest
-    order_of = distance.argsort(1)
-    light = np.take_along_axis(light, order_of, 1)
-    near_first = light.cumsum(1)
-    every = near_first[:, -1:]  # as summed, so that rounding does not tell which of the last rays are within
-    within = (near_first <= (1 - stray) * every) & ((light > 0) | (near_first < every))  # none behind the last light
-    reach = np.where(within, np.take_along_axis(distance, order_of, 1), 0.0).max(1)
-    return replace(pupils, reach_um=reach)
+    return replace(pupils, reach_um=np.where(light > 0, distance, 0.0).max(1))
 
 
 def cutting_rims(pupils: PupilStack) -> np.ndarray:

@@ -14,7 +14,6 @@ from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, check_rays
 from p2sf.lens.source import Source
 from p2sf.pixel_kernels.nodes import hats
-from p2sf.pixel_kernels.pupil_stack import stray_of
 from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.pupil.mask_cells import turned_back
 from p2sf.raytrace.pencil import pencil
@@ -22,7 +21,6 @@ from p2sf.raytrace.seen_mask import mask_seen
 
 TRACED = 40, 120  # steps of radius, and of direction in each half of the disc: exact rays at their ends
 FINER = 5  # times as many cells either way, with rays interpolated between the exact ones
-RINGS = 2048
 CELLS = 7  # along the side of a pixel, in which rays are counted where part of it is sensitive
 
 
@@ -32,7 +30,7 @@ class RaySpread:
 
     Half a pencil has two ``sides``, 1 as it is and −1 mirrored; that of a lens without symmetry is whole.
 
-    ``x_um``, ``y_um``, ``light``: (radii, directions). ``reach_um``: the radius that holds all light but `stray_of` it.
+    ``x_um``, ``y_um``, ``light``: (radii, directions). ``reach_um``: the radius that holds all light.
     ``radius``: the largest spatial frequency, cycles/µm. ``lost``: share of the pupil whose rays do not arrive.
     ``mask``: what of the light stands in the pupil keeps, in the axes of the field at +y; the shares are those without.
     """
@@ -78,8 +76,8 @@ def ray_spread(lens: Lens, source: Source, clip: bool = False) -> RaySpread:
     lost = 1 - float((share * grid.rho).sum() / (grid.rho + 0 * share).sum())
     spread = float(np.nanmax(np.hypot(rays.fx, rays.fy)))
     made = RaySpread(x, y, light, 0.0, spread, lost, mask.round_part, sides)
-    reach = _reach(np.hypot(x, y), made.passing(1, 0.0), stray_of(mask))
-    return replace(made, reach_um=reach, mask=mask)
+    reach = np.where(made.passing(1, 0.0) > 0, np.hypot(x, y), 0.0).max()
+    return replace(made, reach_um=float(reach), mask=mask)
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,13 +132,6 @@ def _grid(sides: int) -> _Grid:
     return _Grid(
         radii, directions, hats(radii, middles[0]).T, hats(directions, middles[1]), middles[0][:, None], middles[1]
     )
-
-
-def _reach(distance: np.ndarray, light: np.ndarray, stray: float) -> float:
-    """Return the radius that holds all of the light but a part, to a part in RINGS of the farthest ray's."""
-    ring = float(distance.max()) / RINGS or 1.0
-    within = np.bincount((distance / ring).astype(np.intp).ravel(), light.ravel()).cumsum()
-    return ring * (1 + int(np.searchsorted(within, (1 - stray) * within[-1])))
 
 
 def ray_kernel(
