@@ -9,7 +9,8 @@ from p2sf.camera import Setup, set_up
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName
 from p2sf.cli.screen import Row, heading, print_json, print_table, warn
 from p2sf.lens.lens import Lens
-from p2sf.lens.misalignment import in_meridian, misalignments
+from p2sf.lens.meridians import meridians
+from p2sf.lens.misalignment import misalignments
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.first_order import abcd, cardinal_points, image_distance, magnification
 from p2sf.paraxial.lens_checks import lens_checks
@@ -76,7 +77,7 @@ def first_order(setup: Setup) -> dict[str, Any]:
 
     Of cylinders, toroids and biconics those in yz, and "in_x" those in xz.
     """
-    along_y, along_x = (in_meridian(setup.lens, azimuth) for azimuth in (0.0, 90.0))
+    along_y, along_x = meridians(setup.lens)
     facts = {
         **_paraxial(along_y, setup),
         **({"misalignment": [str(words) for words in moved]} if (moved := misalignments(setup.lens)) else {}),

@@ -70,7 +70,7 @@ def trace_spot(setup: Setup, rings: int, clip: bool) -> tuple[np.ndarray, dict[s
     found = spot_of(setup.lens, setup.source, rings, clip)
     all_points = np.stack([found.x_um, found.y_um], axis=-1)
     points = all_points[np.isfinite(all_points).all(axis=-1)]
-    na = cone(setup.lens, setup.source).na
+    na = cone(setup.lens, setup.source, setup.stop).na
     return points, {
         "rms_um": float(found.rms_um),
         "largest_um": float(found.farthest_um),

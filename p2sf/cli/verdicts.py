@@ -8,6 +8,7 @@ from typing import Any
 from p2sf.cli.screen import print_json, print_table
 from p2sf.errors import GeometryError, LensFileError, P2SFError, RequestError
 from p2sf.lens.lens import Lens
+from p2sf.lens.meridians import meridians
 from p2sf.lensfile.agf import Catalogue, read_agf
 from p2sf.lensfile.importing import FORMATS, import_lens, recognise
 from p2sf.lensfile.source_text import read_source
@@ -24,14 +25,16 @@ CERTAIN = (".zmx", ".zar", ".zos", ".seq", ".roa", ".len", ".fx")
 class FileVerdict:
     """What became of one file: first-order data where it is read, the refusal with its surface and line where not.
 
-    ``focal_length`` in mm and ``f_number`` are those of the reference wavelength; None where the lens has none.
-    ``stated_focal_length``: what the file or a title in it states, mm.
+    ``focal_length`` in mm and ``f_number`` are those of the reference wavelength; None where the lens has none. Of
+    cylinders, toroids and other shapes that are not of revolution they are those in yz, and ``focal_length_x`` is that
+    in xz, None where it is the same. ``stated_focal_length``: what the file or a title in it states, mm.
     """
 
     file: str
     format: str
     opens: bool
     focal_length: float | None = None
+    focal_length_x: float | None = None
     f_number: float | None = None
     stated_focal_length: float | None = None
     notes: int = 0
@@ -62,12 +65,19 @@ def list_folder(folder: Path, accept_substitutes: bool, catalogues: Sequence[Pat
     )
     rows = [
         (
-            *(r.file, r.format, "yes" if r.opens else "no", r.focal_length, r.stated_focal_length),
+            *(r.file, r.format, "yes" if r.opens else "no", _lengths(r), r.stated_focal_length),
             *(r.f_number, r.notes, r.surface, r.line, r.reason),
         )
         for r in found
     ]
     return print_table(title, columns, [tuple("" if cell is None else cell for cell in row) for row in rows])
+
+
+def _lengths(row: FileVerdict) -> object:
+    """Return the focal lengths of a row in one cell."""
+    if row.focal_length_x is None:
+        return row.focal_length
+    return Message("{y:.6g} in y, {x:.6g} in x", y=row.focal_length, x=row.focal_length_x)
 
 
 def lens_files(folder: Path) -> list[Path]:
@@ -104,10 +114,12 @@ def verdict(path: Path, name: str, accept_substitutes: bool, catalogues: Sequenc
         surface = next(_surfaces(reason), None)
         return FileVerdict(name, _format(path), False, surface=surface, line=line, reason=reason)
     lens, count = found.lens, len(found.report.notes)
-    wavelength = lens.reference_wavelength_um
-    focal_length = float(cardinal_points(lens, wavelength).effective_focal_length)
-    stated = stated_in(found.report, "focal_length")
-    return FileVerdict(name, found.report.format, True, focal_length, _f_number(lens), stated, count)
+    both = meridians(lens)
+    along_y, along_x = (
+        float(cardinal_points(each, lens.reference_wavelength_um).effective_focal_length) for each in both
+    )
+    stated, across = stated_in(found.report, "focal_length"), None if both.x == both.y else along_x
+    return FileVerdict(name, found.report.format, True, along_y, across, _f_number(both.y), stated, count)
 
 
 def _f_number(lens: Lens) -> float | None:

@@ -56,6 +56,17 @@ class Freeform(Shape):
         """Return the coefficients of r … r⁴ of the azimuthal mean."""
         return self.mean.series(curvature) if self.mean else (0.0, 0.0, 0.0, 0.0)
 
+    @property
+    @abstractmethod
+    def vertex_terms(self) -> tuple[float, float, float]:
+        """Return the coefficients of x², xy and y² over the normalisation radius at the vertex, mm."""
+
+    def curvature_at(self, azimuth_deg: float) -> float:
+        """Return what the shape adds to the curvature of a section: its second derivative along it."""
+        sine, cosine = sin(radians(azimuth_deg)), cos(radians(azimuth_deg))
+        xx, xy, yy = self.vertex_terms
+        return 2 * (xx * sine * sine + xy * sine * cosine + yy * cosine * cosine) / self.normalisation_mm**2
+
 
 @lru_cache(maxsize=4)
 def xy_exponents(count: int) -> tuple[tuple[int, int], ...]:
@@ -100,6 +111,12 @@ class XYPolynomial(Freeform):
     @property
     def _monomials(self) -> Monomials:
         return dict(zip(xy_exponents(len(self.coefficients)), self.coefficients, strict=True))
+
+    @property
+    def vertex_terms(self) -> tuple[float, float, float]:
+        """Return the coefficients of x², xy and y², mm."""
+        terms = self._monomials
+        return terms.get((2, 0), 0.0), terms.get((1, 1), 0.0), terms.get((0, 2), 0.0)
 
     @property
     def mean_powers(self) -> dict[int, float]:
@@ -184,6 +201,19 @@ class ZernikeSag(Freeform):
             pairs = ((used.get((n, m), 0.0), used.get((n, -m), 0.0) if m else 0.0) for n in range(m, top + 1, 2))
             found[m] = tuple(complex(cosine, -sine) for cosine, sine in pairs)
         return found
+
+    @property
+    def vertex_terms(self) -> tuple[float, float, float]:
+        """Return the coefficients of x², xy and y², mm: of ρ² in m = 0, and of ρ²cos 2θ and ρ²sin 2θ.
+
+        Near the vertex R of degree n and m = 2 is (−1)ⁿᐟ²⁻¹·n(n + 2)/8·ρ² (Born and Wolf 1999, §9.2.1).
+        """
+        along, across = (
+            sum((-1) ** (n // 2 - 1) * n * (n + 2) / 8 * value for (n, m), value in self.terms.items() if m == which)
+            for which in (2, -2)
+        )
+        mean = self.mean_powers.get(2, 0.0)
+        return mean + along, 2 * across, mean - along
 
     @property
     def mean_powers(self) -> dict[int, float]:

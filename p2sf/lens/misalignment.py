@@ -2,19 +2,15 @@
 
 from dataclasses import replace
 from functools import lru_cache, reduce
-from math import inf
 
 import numpy as np
 
 from p2sf.arguments import check_arguments
 from p2sf.errors import GeometryError
-from p2sf.lens.anamorphic import Anamorphic
 from p2sf.lens.lens import Lens
 from p2sf.lens.placement import Motion, Placement, along_z, placement_of
 from p2sf.lens.properties import PROPERTIES, breaks_words
 from p2sf.messages import Message
-
-FLAT = 1e-15  # per mm: what rounding leaves of a section along a cylinder
 
 
 @check_arguments
@@ -98,23 +94,6 @@ def average_azimuths(lens: Lens) -> Lens:
     if lens.shading is None and surfaces == lens.surfaces:
         return lens
     return replace(lens, surfaces=surfaces, absorption=False)
-
-
-@lru_cache(maxsize=16)
-def in_meridian(lens: Lens, azimuth_deg: float) -> Lens:
-    """Return the lens for paraxial rays in one meridian, from +y towards +x: with the curvatures of its shapes there.
-
-    Of cylinders, toroids and biconics; every other lens is returned unchanged.
-    """
-    shapes = [surface.shape for surface in lens.surfaces]
-    if not any(isinstance(shape, Anamorphic) for shape in shapes):
-        return lens
-    bent = [s.curvature_at(azimuth_deg) if isinstance(s, Anamorphic) else None for s in shapes]
-    surfaces = tuple(
-        surface if c is None else replace(surface, shape=None, radius=1 / c if abs(c) > FLAT else inf)
-        for surface, c in zip(lens.surfaces, bent, strict=True)
-    )
-    return replace(lens, surfaces=surfaces)
 
 
 def folding(placement: Placement) -> dict[str, tuple[Placement, ...]]:

@@ -168,6 +168,13 @@ class Shape(Part):
     def series(self, curvature: float) -> Series:
         """Return the coefficients of r … r⁴ of the azimuthal mean, on a base of this curvature, per mm."""
 
+    @abstractmethod
+    def curvature_at(self, azimuth_deg: float) -> float:
+        """Return what the shape adds to the curvature at the vertex, per mm, of the section at an azimuth.
+
+        Azimuths count from +y towards +x.
+        """
+
 
 class RadialShape(RadialPart, Shape):
     """A shape of revolution."""
@@ -176,6 +183,10 @@ class RadialShape(RadialPart, Shape):
     def mean(self) -> "RadialShape | None":
         """Return the shape itself."""
         return self
+
+    def curvature_at(self, azimuth_deg: float) -> float:
+        """Return the curvature at the vertex, per mm, which is the same at every azimuth."""
+        return 2 * self.series(0.0)[1]
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ import numpy as np
 
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
-from p2sf.lens.misalignment import in_meridian
+from p2sf.lens.meridians import meridians
 from p2sf.lensfile.report import ImportReport, Notebook
 from p2sf.lensfile.source_text import LensText
 from p2sf.messages import Message
@@ -93,7 +93,7 @@ def stated_in(report: ImportReport, kind: StatedKind) -> float | None:
 
 def _nearest(stated: Stated, lens: Lens) -> float | None:
     """Return what the lens has of a kind, in that of its meridians which is nearer to what is stated."""
-    both = [_of_lens(stated.kind, in_meridian(lens, azimuth)) for azimuth in (0.0, 90.0)]
+    both = [_of_lens(stated.kind, each) for each in meridians(lens)]
     known = [each for each in both if each is not None]
     return min(known, key=lambda each: abs(abs(each) - abs(stated.value)), default=None)
 

@@ -104,7 +104,7 @@ def suitable_pitch_um(lens: Lens, source: Source, spectrum: Spectrum, pixels: in
     Raises GeometryError if the image of the source's own colour lies at infinity.
     """
     own = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um, stop)
-    check_focus(cone(lens, source).na)
+    check_focus(cone(lens, source, stop).na)
     waves, _ = bands_through(lens, source, spectrum, TRIED)
     if lens.misaligned or not np.isfinite(own.w40):
         each = [whole_pixel_um(lens, replace(source, wavelength_um=float(wave)), pixels) for wave in waves]

@@ -7,7 +7,7 @@ right angles to that ray. For an aligned lens both are the same point and plane.
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from math import inf
+from math import inf, sqrt
 
 import numpy as np
 
@@ -15,14 +15,15 @@ from p2sf.conventions import FloatOrArray
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, indices, seen_from
 from p2sf.lens.source import Source, source_at
-from p2sf.paraxial.pupils import numerical_aperture
+from p2sf.paraxial.pupils import Stop, numerical_aperture
 from p2sf.raytrace.aiming import arriving
 from p2sf.raytrace.chief_ray import check_chief_ray
 from p2sf.raytrace.surface import Status
 
 NEIGHBOUR = 1e-3  # slope of neighbouring fields, and pupil radii of rays beside the chief ray; errors are its square
 AT_INFINITY = 1e-9  # 1/mm: of a nearer exit pupil, 1e9 mm away, wavelets differ from plane waves by 1e-9 of a wave
-PARALLEL = 1e-9  # of a numerical aperture, below the rounding of rays: that of a parallel beam
+PARALLEL = 1e-9  # of the sine of a half angle, some thousand times the rounding of rays: that of a parallel beam
+EDGE_ON = 1e-3  # of the cosine between the axis of the surfaces and z: no field lies farther out
 
 
 @dataclass(frozen=True)
@@ -30,7 +31,7 @@ class Cone:
     """The cone of light about the chief ray of a field, to first order.
 
     ``na_x``, ``na_y``: n' times the sine of its half angles along x and y of the sensor, turned with the azimuth of the
-    source. ``na``: of the round cone with as much light; 0 of a parallel beam.
+    source. ``na``: of the round cone with as much light; 0 of a beam that is parallel, in one direction or in both.
     """
 
     na_x: float
@@ -38,23 +39,31 @@ class Cone:
     na: float
 
 
-@lru_cache(maxsize=256)
-def cone(lens: Lens, source: Source) -> Cone:
+def cone(lens: Lens, source: Source, stop: Stop | None = None) -> Cone:
     """Return the cone of a source: of an aligned lens the paraxial one at its depth, else about the real chief ray.
 
     Raises GeometryError where the chief ray of a misaligned lens, or one beside it, does not reach the sensor.
     """
+    return _own_cone(lens, source) if stop is None else _cone(lens, source, stop)
+
+
+@lru_cache(maxsize=256)
+def _own_cone(lens: Lens, source: Source) -> Cone:
+    return _cone(lens, source, None)
+
+
+def _cone(lens: Lens, source: Source, stop: Stop | None) -> Cone:
     if not lens.misaligned:
-        na = float(numerical_aperture(lens, source.depth_mm, source.wavelength_um))
+        na = float(numerical_aperture(lens, source.depth_mm, source.wavelength_um, stop))
         return Cone(na, na, na)
     xi, eta = NEIGHBOUR * np.array([1.0, -1, 0, 0, 0]), NEIGHBOUR * np.array([0.0, 0, 1, -1, 0])
-    places, cosines = _at_sensor(lens, source, xi, eta)
+    places, cosines = _at_sensor(lens, source, xi, eta, stop)
     index = abs(float(indices(lens, source.wavelength_um)[-1]))
     turn = tangent_axes(lens, *places[:2, -1])
     slopes = (turn.T @ (cosines[:, :4:2] - cosines[:, 1:4:2]))[:2] * (index / (2 * NEIGHBOUR))
     across, up = np.linalg.norm(slopes, axis=1).tolist()
-    na = float(np.sqrt(abs(np.linalg.det(slopes))))
-    return Cone(across, up, na if na > PARALLEL * index else 0.0)
+    widest, narrowest = np.linalg.svd(slopes, compute_uv=False).tolist()
+    return Cone(across, up, sqrt(widest * narrowest) if narrowest > PARALLEL * index else 0.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,16 +100,19 @@ def exit_pupil(lens: Lens, source: Source) -> ExitPupil:
     where that does not reach the sensor either.
     """
     try:
-        found = pupil_about(lens, _on_axis(lens, source.wavelength_um))
+        found = pupil_about(lens, _on_axis(lens, source.wavelength_um) or source)
     except GeometryError:
         found = pupil_about(lens, source)
     return found.turned(source.azimuth_deg)
 
 
-def _on_axis(lens: Lens, wavelength_um: float) -> Source:
-    """Return the source at infinity on the axis, which is that of the surfaces where these are tilted as a whole."""
+def _on_axis(lens: Lens, wavelength_um: float) -> Source | None:
+    """Return the source at infinity on the axis, which is that of the surfaces where these are tilted as a whole.
+
+    None where that axis is at right angles to z or points back, so that no field lies on it.
+    """
     x, y, z = lens.frames[0].rotation[:, 2].tolist() if None not in lens.steps[1:] else (0.0, 0.0, 1.0)
-    return source_at(inf, x / z, y / z, wavelength_um)
+    return source_at(inf, x / z, y / z, wavelength_um) if z > EDGE_ON else None
 
 
 @lru_cache(maxsize=64)
@@ -138,7 +150,9 @@ def _chief(lens: Lens, source: Source) -> tuple[np.ndarray, np.ndarray]:
     return back @ places[:, 0], back @ cosines[:, 0]
 
 
-def _at_sensor(lens: Lens, source: Source, xi: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _at_sensor(
+    lens: Lens, source: Source, xi: np.ndarray, eta: np.ndarray, stop: Stop | None = None
+) -> tuple[np.ndarray, np.ndarray]:
     """Return where rays through pupil points meet the sensor, mm, and their direction cosines, (3, ray), as `Rays` do.
 
     The index of light that runs to the left is negative, so that its cosines are turned round. Raises GeometryError
@@ -146,7 +160,7 @@ def _at_sensor(lens: Lens, source: Source, xi: np.ndarray, eta: np.ndarray) -> t
     """
     lens = seen_from(lens, source.azimuth_deg)
     check_chief_ray(lens, source)
-    beam, _, index = arriving(lens, source, xi, eta)
+    beam, _, index = arriving(lens, source, xi, eta, stop)
     if (beam.status != Status.PASSED).any():
         raise GeometryError("rays beside the chief ray do not reach the sensor; reduce the field")
     return beam.place, beam.ray / index[-1]

@@ -8,11 +8,15 @@ import pytest
 from scipy.special import j1
 
 import p2sf
+from p2sf.errors import GeometryError
+from p2sf.glass.media import ConstantIndex
+from p2sf.lens.anamorphic import Toroid
 from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.lens.misalignment import displaced, folding, straighten
 from p2sf.lens.placement import Placement
 from p2sf.metrics.perfect import airy_radius_um
-from p2sf.raytrace.field_geometry import cone
+from p2sf.paraxial.pupils import find_stop
+from p2sf.raytrace.field_geometry import cone, exit_pupil
 from p2sf.raytrace.pencil import exit_radius, pencil
 from p2sf.raytrace.zernike_fit import zernike_fit
 
@@ -149,3 +153,31 @@ def test_a_fold_changes_neither_wavefront_nor_cone(field_deg):
     assert radii[1] == pytest.approx(-radii[0], rel=1e-6)
     if field_deg == (0.0, 0.0):
         assert cone(bent, source).na == pytest.approx(cone(lens, source).na, rel=1e-6)
+
+
+def test_the_cone_is_that_of_the_stop_that_is_given():
+    lens, source = p2sf.load_lens("cooke_triplet"), p2sf.Source(wavelength_um=UM)
+    stop = find_stop(lens)
+    half = replace(stop, semi_diameter=stop.semi_diameter / 2)
+    moved = displaced(lens, 1, 2, Placement(decentre_y=1e-9))
+    for each in (lens, moved):
+        assert cone(each, source, half).na == pytest.approx(cone(each, source).na / 2, rel=1e-3)
+
+
+@pytest.mark.parametrize("turn_deg", [0.0, 30.0])
+def test_a_beam_that_is_parallel_in_one_direction_has_no_cone(turn_deg):
+    """Behind a cylinder: whatever rounding leaves of the narrow side, it makes no window of metres."""
+    front, rear = (Toroid(radius_y=radius, turn_deg=turn_deg) for radius in (50.0, -70.0))
+    surfaces = Surface(inf, 3.0, ConstantIndex(1.5), shape=front), Surface(inf, 90.0, shape=rear)
+    lens = Lens(surfaces, Aperture("stop_semi_diameter", 4.0), 1)
+    found = cone(lens, p2sf.Source(field_deg=3.0, wavelength_um=UM))
+    assert found.na == 0 and max(found.na_x, found.na_y) > 0.01
+
+
+@pytest.mark.parametrize("angles", [(45.0, 45.0), (60.0, 60.0)])
+def test_surfaces_at_right_angles_to_the_light_or_beyond_have_no_axis_that_it_takes(angles):
+    first, *rest = p2sf.load_lens("singlet_f6").surfaces
+    turned = replace(first, before=tuple(Placement(tilt_x_deg=angle) for angle in angles))
+    lens = replace(p2sf.load_lens("singlet_f6"), surfaces=(turned, *rest))
+    with np.errstate(all="raise"), pytest.raises(GeometryError, match="tilted"):
+        exit_pupil(lens, p2sf.Source(wavelength_um=UM))

@@ -10,10 +10,11 @@ import numpy as np
 from p2sf.conventions import NM_PER_UM, degrees_from_slope, slope_from_degrees
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, Surface, indices, message_if_misaligned, seen_from, with_sensor
+from p2sf.lens.meridians import meridians
 from p2sf.lens.misalignment import straighten
 from p2sf.lens.source import Source
 from p2sf.messages import Message
-from p2sf.paraxial.pupils import RIM_TIE, default_stop, rim_radii
+from p2sf.paraxial.pupils import RIM_TIE, default_stop, pupils, rim_radii
 from p2sf.pupil.mask_outline import dark_heights
 from p2sf.raytrace.aiming import entrance, pupil_rays
 from p2sf.raytrace.surface import AT_RIM, Status
@@ -418,7 +419,7 @@ def end_at_rim(places: np.ndarray, lens: Lens, surface: int, rim: float) -> None
 def marks(setup: ParaxialSetup) -> Iterator[Mark]:
     """Yield the pupils and the principal and focal points that lie at a finite place."""
     last = vertices(setup.lens)[-2]
-    c, p = setup.cardinal, setup.pupils
+    c, p = setup.cardinal, pupils(meridians(setup.lens).y, setup.source.wavelength_um, setup.stop)
     places = (
         ("EnP", p.entrance_from_first, p.entrance_diameter / 2),
         ("ExP", last + p.exit_from_last, p.exit_diameter / 2),

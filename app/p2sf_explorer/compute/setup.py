@@ -10,6 +10,7 @@ from pathlib import Path
 from p2sf.camera import AS_IN_FILE, Request, Settings, Setup, mask_of, set_up, with_field
 from p2sf.errors import GeometryError, P2SFError
 from p2sf.lens.lens import Lens, with_mask
+from p2sf.lens.meridians import meridians
 from p2sf.lens.positions import Axis, Kind
 from p2sf.lens.source import Source
 from p2sf.paraxial.first_order import CardinalPoints, cardinal_points
@@ -48,7 +49,7 @@ class ParaxialSetup:
     ``prescription`` is the lens before it was opened and focused, built as the state has it; ``designed`` is ``lens``
     without the errors of its build, which sources stand before.
     ``coefficients`` make the picture; they are the lens's ``own`` unless ``altered`` by hand.
-    ``object_y_mm``: y of the source, None at infinity.
+    ``object_y_mm``: y of the source, None at infinity. ``cardinal`` and ``focal_length_mm``: in yz, which is drawn.
     """
 
     prescription: Lens
@@ -290,7 +291,7 @@ def _axial(prescription: Lens, request: Request, errors: BuildErrors) -> _Axial:
         setup=setup,
         designed=designed,
         pupils=pupils(lens, wavelength, stop),
-        cardinal=cardinal_points(lens, wavelength),
+        cardinal=cardinal_points(meridians(lens).y, wavelength),
         rays=paraxial_rays(lens, setup.source.depth_mm, wavelength, stop),
     )
 

@@ -96,11 +96,10 @@ def left_out_waves(state: State) -> float:
 
 def distortion_percent(state: State) -> float:
     """Return how much farther out than the paraxial image the real chief ray lands, %."""
-    from p2sf.pixel_kernels.sensor_points import chief_heights
+    from p2sf.raytrace.field_curves import heights
 
     made = paraxial_setup(state)
-    real = float(chief_heights(made.lens, made.source))
-    return 100 * (real / float(made.coefficients.image_height) - 1)
+    return 100 * float(heights(made.lens, made.source, made.source.field_slope, made.stop).distortion)
 
 
 def axial_colour_um(state: State) -> float:

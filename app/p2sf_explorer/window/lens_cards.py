@@ -7,6 +7,7 @@ from math import isfinite, isinf
 from p2sf.conventions import slope_from_degrees
 from p2sf.errors import P2SFError
 from p2sf.lens.lens import Lens
+from p2sf.lens.meridians import meridians
 from p2sf.lens.source import Source
 from p2sf.paraxial.first_order import cardinal_points
 from p2sf.paraxial.pupils import f_number, find_stop
@@ -49,7 +50,7 @@ def lens_tags(name: str) -> frozenset[str]:
     """Return the tags of `FILTERS` that a lens has; none for one that cannot be read."""
     try:
         lens = load(name)
-        focal = float(cardinal_points(lens, lens.reference_wavelength_um).effective_focal_length)
+        focal = float(cardinal_points(meridians(lens).y, lens.reference_wavelength_um).effective_focal_length)
         track = lens.vertices[-1]
         mirrors = any(surface.reflects for surface in lens.surfaces)
         aspheres = sum(1 for surface in lens.surfaces if surface.radial_parts)
@@ -118,12 +119,16 @@ def _shown_title(name: str, lens_text: str | None, _stamp: tuple[int, int]) -> s
 
 
 def facts(lens: Lens) -> str:
-    """Return focal length, f-number and half field in one line."""
-    wavelength = lens.reference_wavelength_um
-    focal = float(cardinal_points(lens, wavelength).effective_focal_length)
-    speed = float(f_number(lens, wavelength))
-    widest = lens.widest_field_deg
-    parts = [f"f′ {significant(focal, 3)} mm" if isfinite(focal) else "afocal"]
-    if isfinite(speed):
-        parts.append(f"f/{speed:.2g}")
-    return " · ".join([*parts, f"±{widest:.3g}°"])
+    """Return focal length, f-number and half field in one line, the former in y × in x where the meridians differ."""
+    wavelength, (along_y, along_x) = lens.reference_wavelength_um, meridians(lens)
+    parts, seen = [], (along_y,) if along_x == along_y else (along_y, along_x)
+    focal = [float(cardinal_points(each, wavelength).effective_focal_length) for each in seen]
+    speed = [float(f_number(each, wavelength)) for each in seen]
+    parts.append(f"f′ {' × '.join(map(_length, focal))} mm" if any(map(isfinite, focal)) else "afocal")
+    if any(map(isfinite, speed)):
+        parts.append(" × ".join(f"f/{each:.2g}" if isfinite(each) else "∞" for each in speed))
+    return " · ".join([*parts, f"±{lens.widest_field_deg:.3g}°"])
+
+
+def _length(mm: float) -> str:
+    return significant(mm, 3) if isfinite(mm) else "∞"

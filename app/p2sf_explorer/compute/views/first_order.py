@@ -1,13 +1,17 @@
 """First-order data of the lens as it is set, in three columns of (name, value, definition)."""
 
+from collections.abc import Callable
 from math import inf, isfinite, isinf
 
 import numpy as np
 
+from p2sf.lens.lens import Lens
+from p2sf.lens.meridians import meridians
 from p2sf.lens.positions import Kind
 from p2sf.messages import Message, Number
-from p2sf.paraxial.first_order import magnification
-from p2sf.paraxial.pupils import Stop, f_number
+from p2sf.paraxial.first_order import cardinal_points, image_distance, magnification
+from p2sf.paraxial.pupils import Stop, f_number, pupils
+from p2sf.paraxial.seidel import coefficients
 from p2sf.raytrace.focusing import focused_vergence
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import ParaxialSetup
@@ -38,7 +42,7 @@ EXIT_TIP = "The stop seen from the sensor: its diameter, and its place from the 
 def rows(live: Live) -> tuple[Row, ...]:
     """Return what a person asks first, the picture's own figures before the lens's: short screens cut the end."""
     s = live.setup
-    c, p, na = s.coefficients, s.pupils, s.cone.na
+    na = s.cone.na
     return (
         (
             "Strehl ratio",
@@ -53,7 +57,7 @@ def rows(live: Live) -> tuple[Row, ...]:
             "Root mean square of the wavefront over the pupil, without piston and tilt, which do not blur.",
         ),
         ("Peak of the PSF", _peak(live), "Where it is on the sensor: x and y from the chief ray."),
-        ("Focal length f′", length(s.focal_length_mm), "Effective focal length f′ = −1/C of the system matrix."),
+        ("Focal length f′", focal_length(s), "Effective focal length f′ = −1/C of the system matrix."),
         (
             "Working f-number",
             aperture(0.5 / na if na else inf),
@@ -61,16 +65,59 @@ def rows(live: Live) -> tuple[Row, ...]:
         ),
         ("Numerical aperture", Message("{value:.4f}", value=na), "NA = n′|u′|, image-space slope of the marginal ray."),
         ("Airy radius", airy_radius(live), "First dark ring of a perfect lens, 0.61 λ/NA."),
-        ("Paraxial image", length(float(c.image_distance)), IMAGE_TIP),
+        ("Paraxial image", paraxial_image(s), IMAGE_TIP),
         ("Sensor", length(s.lens.sensor_mm), SENSOR_TIP),
-        (
-            "Entrance pupil",
-            pupil(p.entrance_from_first, p.entrance_diameter),
-            ENTRANCE_TIP,
-        ),
-        ("Exit pupil", pupil(p.exit_from_last, p.exit_diameter), EXIT_TIP),
+        ("Entrance pupil", entrance_pupil(s), ENTRANCE_TIP),
+        ("Exit pupil", exit_pupil(s), EXIT_TIP),
         ("Stop", stop(s.stop), STOP_TIP),
     )
+
+
+def in_each_meridian(setup: ParaxialSetup, figure: Callable[[Lens], Message]) -> Message:
+    """Return what paraxial rays say of a lens, of each of its meridians where these differ."""
+    along_y, along_x = meridians(setup.lens)
+    in_y = figure(along_y)
+    if along_x == along_y or str(in_x := figure(along_x)) == str(in_y):
+        return in_y
+    return Message("{y} in y, {x} in x", y=in_y, x=in_x)
+
+
+def focal_length(setup: ParaxialSetup) -> Message:
+    """Return the focal length, or both."""
+    wavelength = setup.source.wavelength_um
+    return in_each_meridian(setup, lambda lens: length(float(cardinal_points(lens, wavelength).effective_focal_length)))
+
+
+def paraxial_image(setup: ParaxialSetup) -> Message:
+    """Return where the paraxial image of this depth is, or where its lines are."""
+    depth, wavelength = setup.source.depth_mm, setup.source.wavelength_um
+    return in_each_meridian(setup, lambda lens: length(float(image_distance(lens, depth, wavelength))))
+
+
+def entrance_pupil(setup: ParaxialSetup) -> Message:
+    """Return diameter and place of the entrance pupil."""
+
+    def figure(lens: Lens) -> Message:
+        found = pupils(lens, setup.source.wavelength_um, setup.stop)
+        return pupil(found.entrance_from_first, found.entrance_diameter)
+
+    return in_each_meridian(setup, figure)
+
+
+def exit_pupil(setup: ParaxialSetup) -> Message:
+    """Return diameter and place of the exit pupil."""
+
+    def figure(lens: Lens) -> Message:
+        found = pupils(lens, setup.source.wavelength_um, setup.stop)
+        return pupil(found.exit_from_last, found.exit_diameter)
+
+    return in_each_meridian(setup, figure)
+
+
+def speed(setup: ParaxialSetup) -> Message:
+    """Return the f-number."""
+    wavelength = setup.source.wavelength_um
+    return in_each_meridian(setup, lambda lens: aperture(float(f_number(lens, wavelength, setup.stop))))
 
 
 def _peak(live: Live) -> Message:
@@ -91,9 +138,8 @@ def ring_note(live: Live, kind: Kind) -> Message:
     between = Message("between two positions of the file")
     column = Message("{name}", name=axis.words(place)) if place in axis.at else between
     if kind == "zoom":
-        speed = aperture(float(f_number(s.lens, s.source.wavelength_um, s.stop)))
         focal = Number(significant(s.focal_length_mm, 3))
-        return Message("EFL {focal} mm, {speed} · {column}", focal=focal, speed=speed, column=column)
+        return Message("EFL {focal} mm, {speed} · {column}", focal=focal, speed=speed(s), column=column)
     vergence = focused_vergence(s.lens)
     focused = distance(1 / vergence) if vergence > 1 / FARTHEST_MM else INFINITE
     return Message("focused at {distance} · {column}", distance=focused, column=column)
@@ -151,37 +197,43 @@ def first_order(live: Live) -> tuple[tuple[Row, ...], ...]:
 
 def lens_rows(live: Live) -> tuple[Row, ...]:
     """Return focal, principal and nodal points, Petzval radius and track of the lens."""
-    s, p = live.setup, live.setup.cardinal
+    s = live.setup
+
+    def point(name: str) -> Message:
+        return in_each_meridian(
+            s, lambda lens: length(float(getattr(cardinal_points(lens, s.source.wavelength_um), name)))
+        )
+
     return (
-        ("Focal length f′", length(s.focal_length_mm), "f′ = −1/C of the system matrix."),
+        ("Focal length f′", focal_length(s), "f′ = −1/C of the system matrix."),
         (
             "Back focus F′",
-            length(float(p.back_focal_distance)),
+            point("back_focal_distance"),
             "Rear focal point, where light from a far axial point meets, from the last vertex: f′·A.",
         ),
         (
             "Front focus F",
-            length(float(p.front_focal_distance)),
+            point("front_focal_distance"),
             "Front focal point, whose light leaves as a parallel beam, from the first vertex: D/C.",
         ),
         (
             "Principal point H",
-            length(float(p.front_principal_from_first)),
+            point("front_principal_from_first"),
             "Front principal plane, imaged onto H′ at magnification 1; from the first vertex.",
         ),
         (
             "Principal point H′",
-            length(float(p.rear_principal_from_last)),
+            point("rear_principal_from_last"),
             "Rear principal plane, from which f′ is measured to F′; from the last vertex.",
         ),
         (
             "Nodal point N",
-            length(float(p.front_nodal_from_first)),
+            point("front_nodal_from_first"),
             "A ray aimed at N leaves from N′ in its old direction; from the first vertex.",
         ),
         (
             "Nodal point N′",
-            length(float(p.rear_nodal_from_last)),
+            point("rear_nodal_from_last"),
             "A ray aimed at N leaves from N′ in its old direction; from the last vertex.",
         ),
         ("Petzval radius", length(petzval_radius(s)), "1/(n′ΣcΔ(1/n)): the image's curvature without astigmatism."),
@@ -192,15 +244,14 @@ def lens_rows(live: Live) -> tuple[Row, ...]:
 def pupil_rows(live: Live) -> tuple[Row, ...]:
     """Return stop, pupils, apertures and the invariant."""
     s = live.setup
-    p, na = s.pupils, s.cone.na
-    number = float(f_number(s.lens, s.source.wavelength_um, s.stop))
+    na = s.cone.na
     invariant = float(s.rays.invariant) * s.source.field_slope
     return (
         ("Stop", stop(s.stop), STOP_TIP),
         ("Stop radius", length(float(s.stop.semi_diameter)), "Half the free diameter of the stop."),
-        ("Entrance pupil", pupil(p.entrance_from_first, p.entrance_diameter), ENTRANCE_TIP),
-        ("Exit pupil", pupil(p.exit_from_last, p.exit_diameter), EXIT_TIP),
-        ("f-number", aperture(number), "|f′| over the entrance pupil."),
+        ("Entrance pupil", entrance_pupil(s), ENTRANCE_TIP),
+        ("Exit pupil", exit_pupil(s), EXIT_TIP),
+        ("f-number", speed(s), "|f′| over the entrance pupil."),
         ("Working f-number", aperture(0.5 / na if na else inf), "1/(2 NA) at this depth."),
         ("Numerical aperture", Message("{value:.4f}", value=na), "NA = n′|u′| of the marginal ray."),
         (
@@ -215,9 +266,15 @@ def pupil_rows(live: Live) -> tuple[Row, ...]:
 def source_rows(live: Live) -> tuple[Row, ...]:
     """Return what the lens makes of this source."""
     s = live.setup
-    c, height = s.own, s.object_y_mm
-    gap = s.lens.sensor_mm - float(c.image_distance)
-    ratio = float(magnification(s.lens, s.source.depth_mm, s.source.wavelength_um))
+    height, depth, wavelength = s.object_y_mm, s.source.depth_mm, s.source.wavelength_um
+
+    def ratio(lens: Lens) -> Message:
+        return Message("{value:z.5f}", value=float(magnification(lens, depth, wavelength)))
+
+    def gap(lens: Lens) -> Message:
+        gap = s.lens.sensor_mm - float(image_distance(lens, depth, wavelength))
+        return Message("{value:z.1f} µm", value=1e3 * gap) if isfinite(gap) else INFINITE
+
     return (
         ("Wavelength", Message("{value:.1f} nm", value=live.state.optics.wavelength_nm), "In vacuum."),
         ("Depth", distance(s.source.depth_mm), "Source to first vertex."),
@@ -227,19 +284,29 @@ def source_rows(live: Live) -> tuple[Row, ...]:
             "Angle of the chief ray at the entrance pupil.",
         ),
         ("Object height", NONE if height is None else length(height), OBJECT_TIP),
-        ("Magnification", Message("{value:z.5f}", value=ratio), "Image over object height; 0 from infinity."),
-        ("Paraxial image", length(float(c.image_distance)), "From the last vertex."),
+        ("Magnification", in_each_meridian(s, ratio), "Image over object height; 0 from infinity."),
+        ("Paraxial image", paraxial_image(s), "From the last vertex."),
         ("Sensor", length(s.lens.sensor_mm), "From the last vertex."),
         (
             "Sensor − image",
-            Message("{value:z.1f} µm", value=1e3 * gap) if isfinite(gap) else INFINITE,
+            in_each_meridian(s, gap),
             "Δz: what Wd = NA²Δz/(2n′λ) has.",
         ),
         (
             "Image height",
-            length(float(c.image_height)),
+            length(image_height(s)),
             "y of the paraxial chief ray on the sensor; in focus, the magnification times the object height.",
         ),
+    )
+
+
+def image_height(setup: ParaxialSetup) -> float:
+    """Return y of the paraxial chief ray on the sensor, mm."""
+    source, along_y = setup.source, meridians(setup.lens).y
+    if along_y is setup.lens:
+        return float(setup.own.image_height)
+    return float(
+        coefficients(along_y, source.depth_mm, source.field_slope, source.wavelength_um, setup.stop).image_height
     )
 
 

@@ -2900,5 +2900,6 @@
 <message><source>the line has over {count} letters; break it</source><translation>die Zeile hat über {count} Zeichen; sie umbrechen</translation></message>
 <message><source>{path} cannot be read, {reason}; save it smaller, or as a TIFF</source><translation>{path} lässt sich nicht lesen, {reason}; kleiner oder als TIFF speichern</translation></message>
 <message><source>{reason}; this is not a lens file</source><translation>{reason}; das ist keine Objektivdatei</translation></message>
+<message><source>{y} in y, {x} in x</source><translation>{y} in y, {x} in x</translation></message>
 </context>
 </TS>
