@@ -140,12 +140,16 @@ def sum_rays(
         sampling = sampling_of(pupil, found, None if reached <= rtol else short)
         made = Origin(pupil.method, 0, rays, sampling, started, reached, reached**2)
     made = _with_waves_error(made, found.waves, intensity, centred_axis(*window))
-    blur = None
     finest = found.waves.spread / (1 if pupil.sphere is None else FRINGES_OF_SPHERES)
-    if rtol is not None and resolved(finest, pixel_um):
-        blur = blur_um2(pupil)
     peak = peak_on_demand(intensity, pixel_um, found.waves, partial(waves_reaching, pupil), quality)
-    return psf_from_intensity(intensity, pixel_um, source.wavelength_um, blur, made, peak)
+    psf = psf_from_intensity(intensity, pixel_um, source.wavelength_um, None, made, peak)
+    return psf.with_fields(energy=partial(_share_of_light, pupil, psf)) if resolved(finest, pixel_um) else psf
+
+
+def _share_of_light(pupil: RayPupil, psf: Psf) -> float | None:
+    """Return the share of light in the window of a PSF that resolves it; None where no area of the rays tells it."""
+    blur, total = blur_um2(pupil), psf.sum_over_peak
+    return None if blur is None or total is None else float(total) * psf.pixel_um**2 / blur
 
 
 def _with_waves_error(made: Origin, waves: Waves, intensity: np.ndarray, axis: np.ndarray) -> Origin:

@@ -74,6 +74,8 @@ PITCH_RINGS = 8  # of rays, to estimate the extent of the light
 AUTO_SECONDS = 2.0  # that `auto` may take for a sum by its estimated cost: light per pixel takes two, 5 s with all else
 FIELD_SHARE = 0.01  # of the root of the 1 − R² allowed, that a sum of spherical waves may leave of the field
 PLANE_SHARE = 0.5  # of the allowed error that plane waves may use up: spherical ones take fifty times as long as a fit
+COMPARED = 2.0  # times their comparison, which holds for 99.7 % of states (python -m tests.long.spherical_prediction)
+FLATTEST = 1e6  # picture, above which the reference itself tells no R² of 0.99
 QUICK_LEVELS = LEVELS[:2]  # fitted to the same 64 rays
 TABLE_SECONDS, RAY_SECONDS = 4e-7, 4e-6  # of a node from tables of polynomials, and of a ray through a dozen surfaces
 
@@ -85,7 +87,8 @@ class Choice:
     ``tried_rays`` were traced for the choice and ``lost_rays`` of them did not reach the sensor. ``allowed_error`` is
     the tolerated 1 − R², less that of plane waves where it counts; ``seidel_error`` and ``fitted_error``, that of
     ``fitted_numbers``, are predictions, None where none was made. ``plane_wave_error``: predicted, of plane waves
-    against spherical ones. ``fit``: the fit made for the choice, if the method would make the same.
+    against spherical ones. ``flatness``: by which errors count more in R² of a window than of a whole PSF. ``fit``: the
+    fit made for the choice, if the method would make the same.
     """
 
     method: str
@@ -98,6 +101,7 @@ class Choice:
     fitted_error: float | None = None
     fitted_numbers: int = 0
     plane_wave_error: float | None = None
+    flatness: float = 1.0
     fit: FittedPencil | None = field(default=None, repr=False, compare=False)
 
     @property
@@ -214,14 +218,19 @@ def residual_for(min_r2: float) -> float:
 
 @one_blas_thread
 def choose(
-    lens: Lens, source: Source, min_r2: float = 0.99, clip: bool = False, window: tuple[int, float] | None = None
+    lens: Lens,
+    source: Source,
+    min_r2: float = 0.99,
+    clip: bool = False,
+    window: tuple[int, float] | None = None,
+    flatness: float = 1.0,
 ) -> Choice:
     """Return the cheapest method whose predicted R² is at least ``min_r2``, without running the reference.
 
-    The prediction is for a ``window`` (samples a side, µm between samples), or for one that shows the whole PSF. Where
-    the sum that keeps ``min_r2`` is estimated to take more than AUTO_SECONDS, the best one within them is chosen, and
-    its predicted error is above what is allowed. Raises GeometryError if the chief ray does not reach the sensor,
-    RequestError for a ``min_r2`` not below 1.
+    The prediction is for a ``window`` (samples a side, µm between samples) with a picture of this `flatness_of`, or for
+    one that shows the whole PSF. Where the sum that keeps ``min_r2`` is estimated to take more than AUTO_SECONDS, the
+    best one within them is chosen, and its predicted error is above what is allowed. Raises GeometryError if the chief
+    ray does not reach the sensor, RequestError for a ``min_r2`` not below 1.
     """
     _check_min_r2(min_r2, BELOW_ONE)
     allowed = 1 - min_r2
@@ -229,16 +238,44 @@ def choose(
     rays = pencil(lens, source, xi, eta, clip=clip)
     steep = steepness(rays, xi, eta)
     half = inf if window is None else window[0] * window[1] / 2
-    bound = plane_wave_bound(lens, source, rays, weight, steep, half)
+    bound = flatness * plane_wave_bound(lens, source, rays, weight, steep, half)
+    if bound > PLANE_SHARE * allowed:
+        bound = min(bound, _compared(lens, source, clip, half))
     if bound <= PLANE_SHARE * allowed or not _sphere_is_affordable(lens, source, clip, window):
         left = allowed - bound if bound <= PLANE_SHARE * allowed else allowed
-        choice = _choose_plane(lens, source, clip, rays, steep, left)
-        both = choice.predicted_error + bound
-        return replace(choice, predicted_error=both, allowed_error=allowed, plane_wave_error=bound)
+        choice = _choose_plane(lens, source, clip, rays, steep, left / flatness)
+        both = flatness * choice.predicted_error + bound
+        return replace(choice, predicted_error=both, allowed_error=allowed, plane_wave_error=bound, flatness=flatness)
     error = TRACED_ERROR if rays.passed.all() and not clip else EDGE_ERROR
-    error = error if error <= allowed else SETTLED_TOLERANCE**2
-    tried = Choice("spherical", error, 0, int((~rays.passed).sum()), xi.size, allowed)
-    return replace(tried, plane_wave_error=bound)
+    error = error if flatness * error <= allowed else SETTLED_TOLERANCE**2
+    lost = int((~rays.passed).sum())
+    return Choice(
+        "spherical",
+        flatness * error,
+        0,
+        lost,
+        xi.size,
+        allowed_error=allowed,
+        plane_wave_error=bound,
+        flatness=flatness,
+    )
+
+
+def flatness_of(values: np.ndarray) -> float:
+    """Return Σp²/Σ(p − mean)² of a picture: 1 of a PSF on a dark ground, more where a window shows a part of it.
+
+    R² compares errors with what the picture varies, so that of the same relative L2 error 1 − R² is this times as much.
+    """
+    varying = float(np.square(values - values.mean()).sum())
+    return min(float(np.square(values).sum()) / varying, FLATTEST) if varying else 1.0
+
+
+def _compared(lens: Lens, source: Source, clip: bool, half_um: float) -> float:
+    """Return what plane waves may miss by a comparison of two sums; infinite where it takes too many nodes, or none."""
+    try:
+        return COMPARED * plane_wave_error(lens, source, clip, half_um)
+    except P2SFError:
+        return inf
 
 
 def _sphere_is_affordable(lens: Lens, source: Source, clip: bool, window: tuple[int, float] | None) -> bool:
@@ -348,13 +385,17 @@ def render(
     asked = PsfRequest(lens, source, method, (pixels, pixel_um), options)
     if method != AUTO:
         return psf_of(asked)
-    return psf_of(chosen(asked))
+    psf = psf_of(chosen(asked))
+    flatness = flatness_of(psf.values)
+    if psf.predicted_error is None or flatness * psf.predicted_error <= 1 - options.min_r2:
+        return psf
+    return psf_of(chosen(asked, flatness))
 
 
-def chosen(asked: PsfRequest) -> PsfRequest:
+def chosen(asked: PsfRequest, flatness: float = 1.0) -> PsfRequest:
     """Return a request for a method in place of "auto", which is to take AUTO_SECONDS at most."""
-    choice = choose(asked.lens, asked.source, asked.options.min_r2, asked.options.clip, asked.window)
-    once = choice.method == SPHERICAL.name and choice.predicted_error > SETTLED_TOLERANCE**2
+    choice = choose(asked.lens, asked.source, asked.options.min_r2, asked.options.clip, asked.window, flatness)
+    once = choice.method == SPHERICAL.name and choice.predicted_error > flatness * SETTLED_TOLERANCE**2
     asked = replace(asked, method=choice.method, numbers=choice.numbers, fit=choice.fit, choice=choice)
     return replace(asked, most_seconds=AUTO_SECONDS, converged=not once)
 
@@ -405,7 +446,7 @@ def psf_of(asked: PsfRequest, cancelled: Cancelled | None = None) -> Psf:
 
 def _with_promise(psf: Psf, choice: Choice, asked_error: float) -> Psf:
     """Return what `auto` made with the 1 − R² that was asked for, and with what plane waves may miss."""
-    error = psf.predicted_error
+    error = None if psf.predicted_error is None else choice.flatness * psf.predicted_error
     if choice.method != SPHERICAL.name and error is not None and choice.plane_wave_error is not None:
         error += choice.plane_wave_error
     if error is None or psf.error is None or error <= asked_error:

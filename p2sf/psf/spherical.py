@@ -37,8 +37,7 @@ BOUND, FALL = 0.4, 2 / 3  # held by 500 random states (python -m tests.long.sphe
 MOST_INSIDE = 0.9  # of the rays in a window, from which on its R² is that of the whole picture
 SAMPLES = 64  # a side of the window in which the two sums are compared
 ROOM = 1.1, 2.0  # of that window: of the landing points, and Airy radii
-MOST_NODES = 2**17  # of that comparison: half a second
-MOST_TO_CHOOSE = 2**16  # within a choice: some tens of milliseconds
+MOST_NODES = 2**21  # of that comparison: half a second, where a sum of spherical waves takes ten times as long
 
 
 def spherical_pupil(lens: Lens, source: Source, clip: bool = False) -> RayPupil:
@@ -83,8 +82,7 @@ def plane_wave_bound(
     share = share / share.sum()
     x, y = (np.where(rays.passed[own], place[own], 0.0) for place in (rays.x_um, rays.y_um))
     scale = float(rays.index / np.ravel(rays.wavelength_um)[0]) * pi / distance
-    sine = float(np.hypot(np.ravel(rays.chief_kx)[0], np.ravel(rays.chief_ky)[0]))
-    wide = _wide_angle(steep, abs(distance), sine)
+    wide = _wide_angle(rays, steep, distance)
     if float(share @ ((np.abs(x) <= half_um) & (np.abs(y) <= half_um))) < MOST_INSIDE:
         return float(np.nan_to_num(scale * scale * _spread_anywhere(domain, share, x, y, half_um) + wide, nan=inf))
     x, y = x - domain.mean_across(share, x), y - share @ y
@@ -107,41 +105,45 @@ def _spread_anywhere(domain: PupilDomain, share: np.ndarray, x: np.ndarray, y: n
     return float(weight @ ((square * square) @ part - (square @ part) ** 2) @ weight)
 
 
-def _wide_angle(steep: Steepness, distance_um: float, sine: float) -> float:
+def _wide_angle(rays: Rays, steep: Steepness, distance_um: float) -> float:
     """Return about what plane waves miss of light that spreads by some of the pupil's distance, as 1 − R².
 
     Light t times that distance beside a ray is displaced by t·sine and t²/2 of t, of a chief ray at that ``sine``, and
     t² fainter.
     """
-    spread, t = steep.light_um, steep.light_um / distance_um
+    sine = float(np.hypot(np.ravel(rays.chief_kx)[0], np.ravel(rays.chief_ky)[0]))
+    spread, t = steep.light_um, steep.light_um / abs(distance_um)
     return (pi * steep.spread * spread * (sine * t + t * t / 2)) ** 2 + t**4
 
 
 @lru_cache(maxsize=64)
 @one_blas_thread
-def plane_wave_error(lens: Lens, source: Source, clip: bool = False, most: int = MOST_NODES) -> float:
+def plane_wave_error(lens: Lens, source: Source, clip: bool = False, half_um: float = inf) -> float:
     """Return the predicted 1 − R² of plane waves against spherical ones, both of exact rays.
 
-    It is that of two sums at SAMPLES² places in the window that shows the whole PSF, the spherical one by the plane
-    waves that agree with it at the chief ray; 0 for an exit pupil at infinity. Raises GeometryError where rays do not
-    reach the sensor, SamplingError where more than ``most`` nodes are needed.
+    It is that of two sums at SAMPLES² places in a window of ±``half_um``, or in the one that shows the whole PSF where
+    that is smaller, the spherical one by the plane waves that agree with it at the chief ray to second order, and what
+    these miss at wide angles (`_wide_angle`); 0 for an exit pupil at infinity. Raises GeometryError where rays do not
+    reach the sensor, SamplingError where more than MOST_NODES are needed.
     """
-    half = half_window_um(lens, source)
+    half = min(half_um, half_window_um(lens, source))
     reach = hypot(half, half)
-    counts, axis = first_counts(lens, source, reach, clip, most), centred_axis(SAMPLES, 2 * half / SAMPLES)
+    counts, axis = first_counts(lens, source, reach, clip, MOST_NODES), centred_axis(SAMPLES, 2 * half / SAMPLES)
     sphere = exit_sphere(lens, source)  # behind the counts, which refuse a wide blur sooner
     if sphere is None:
         return 0.0
-    counts = max(counts, first_counts(lens, source, reach, clip, most, sphere), key=prod)
+    counts = max(counts, first_counts(lens, source, reach, clip, MOST_NODES, sphere), key=prod)
     pupils = RayPupil(lens, source, clip), RayPupil(lens, source, clip, sphere=sphere)
-    plane, own = (_waves_of(pupil, counts, reach).plane.intensity(axis, axis) for pupil in pupils)
-    return 1 - r_squared(plane, own)
+    plane, own = (_waves_of(pupil, counts, reach).plane.intensity(axis, axis, np.float32) for pupil in pupils)
+    xi, eta, _ = level_rays(levels_for(lens)[0])
+    rays = pencil(lens, source, xi, eta)
+    return 1 - r_squared(plane, own) + _wide_angle(rays, steepness(rays, xi, eta), sphere.distance * UM_PER_MM)
 
 
 def worth_spherical(lens: Lens, source: Source, clip: bool) -> bool:
     """Return whether plane waves are predicted to miss by more than CAUTION, or may where that takes too many nodes."""
     try:
-        return plane_wave_error(lens, source, clip, MOST_TO_CHOOSE) > CAUTION
+        return plane_wave_error(lens, source, clip) > CAUTION
     except SamplingError:
         xi, eta, weight = level_rays(levels_for(lens)[0])
         rays = pencil(lens, source, xi, eta, clip=clip)

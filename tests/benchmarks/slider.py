@@ -57,7 +57,7 @@ PARTS = {  # what is timed by ``--split``: the name that calls it, and what it i
     "p2sf.psf.geometric:pencil": "compute: aiming and tracing",
     "p2sf_explorer.compute.method:main_reach_um": "compute: ray density",
     "p2sf_explorer.compute.method:geometric_psf": "compute: ray density",
-    "p2sf_explorer.compute.method:choose_for_state": "compute: choice",
+    "p2sf_explorer.compute.method:choice_for_state": "compute: choice",
     "p2sf_explorer.compute.preview:pencil": "compute: aiming and tracing",
     "p2sf_explorer.compute.preview:best_fit": "compute: fit",
     "p2sf_explorer.compute.method:best_fit": "compute: fit",

@@ -11,6 +11,9 @@ from scipy.special import j0
 import p2sf
 from p2sf import Aperture, GeometryError, Lens, Source, Surface
 from p2sf.lens.transmission import Transmission
+from p2sf.psf.huygens import sum_rays
+from p2sf.psf.pixel_integrals import light_of_rays
+from p2sf.psf.spherical import spherical_pupil
 
 BICONVEX = Lens((Surface(60.0, 5.0, 1.6), Surface(-60.0, 48.5)), Aperture("stop_semi_diameter", 5.0), 1)
 NODES = 800
@@ -129,3 +132,12 @@ def test_a_pupil_ends_where_a_surface_transmits_nothing():
 def test_a_surface_that_transmits_nothing_is_refused():
     with pytest.raises(GeometryError, match="surface 2 transmits no light"):
         replace(BICONVEX, surfaces=(BICONVEX.surfaces[0], Surface(-60.0, 48.5, transmission=Transmission(0.0))))
+
+
+def test_one_pass_of_spherical_waves_states_its_light():
+    """By exact rays: of a blur a hundred Airy radii wide, in half of its window, diffraction moves little."""
+    lens = p2sf.load_lens("double_gauss_28")
+    source = Source(field_deg=19.9)
+    once = sum_rays(spherical_pupil(lens, source), (256, 0.9765625), None)
+    assert once.energy == pytest.approx(light_of_rays(lens, source, once, False), abs=0.01)
+    assert 0.5 < once.energy < 0.99

@@ -1,8 +1,10 @@
 """Sums of waves: which are too slow for a frame or take too many samples, and a cache. No Qt here."""
 
+from math import inf
+
 from p2sf.messages import Message
 from p2sf.psf.cost import node_count, predicted_seconds, seconds
-from p2sf.psf.methods import PsfOptions, PsfRequest, by_six, method_of
+from p2sf.psf.methods import AUTO_SECONDS, Choice, PsfOptions, PsfRequest, by_six, method_of
 from p2sf.psf.result import Psf
 from p2sf.raytrace.fit import FittedPencil
 from p2sf_explorer.compute.setup import ParaxialSetup
@@ -43,11 +45,16 @@ class SumCache:
 
 
 def psf_request(
-    state: State, setup: ParaxialSetup, method: str, window: tuple[int, float], quality: str = "settled"
+    state: State,
+    setup: ParaxialSetup,
+    method: str,
+    window: tuple[int, float],
+    quality: str = "settled",
+    choice: Choice | None = None,
 ) -> PsfRequest:
     """Return what a state asks of one method in a window: of six coefficients without rims, which they do not know.
 
-    Huygens is summed once; the accuracy worker makes it converge.
+    Huygens is summed once; the accuracy worker makes it converge. ``choice``: why ``auto`` takes the method.
     """
     six = setup.coefficients if by_six(method) else None
     return PsfRequest(
@@ -57,6 +64,8 @@ def psf_request(
         window,
         PsfOptions(quality, state.optics.tolerance, state.optics.clip and six is None),
         converged=False,
+        most_seconds=AUTO_SECONDS if choice else inf,
+        choice=choice,
         six=six,
         by_hand=setup.altered,
     )

@@ -13,7 +13,7 @@ from p2sf.paraxial.seidel import Coefficients, reason_against_coefficients
 from p2sf.paraxial.wavefront import steepest_slope
 from p2sf.psf.cost import coefficient_node_count, fit_node_count, nodes_beyond, seconds
 from p2sf.psf.geometric import geometric_psf, main_reach_um
-from p2sf.psf.methods import FITTED, SEIDEL, TRACED, PsfRequest, by_six, choose, psf_of
+from p2sf.psf.methods import FITTED, SEIDEL, TRACED, Choice, PsfRequest, by_six, choose, psf_of
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_focus, check_image
 from p2sf.psf.smooth_pupil import all_reach
@@ -84,7 +84,8 @@ class Rendered:
 class Task:
     """What is to be shown: a state and its setup by one method, and why by that, in a window of at least this size.
 
-    ``known``: the rays of `preview` without rims, where they are traced already.
+    ``known``: the rays of `preview` without rims, where they are traced already. ``choice``: of ``auto``, None of a
+    person's own method and while a slider moves.
     """
 
     state: State
@@ -94,6 +95,7 @@ class Task:
     least: Least
     cache: SumCache | None
     known: Preview | None = None
+    choice: Choice | None = None
 
     @property
     def exact(self) -> bool:
@@ -145,8 +147,12 @@ class Task:
     def finest(self, width: float) -> int:
         """Return the most samples a side that a picture so wide is made with in some seconds."""
         window = SIZES[-1], width / SIZES[-1]
-        request = psf_request(self.state, self.setup, self.method, window)
+        request = self.request(window)
         return most_samples(request, self.fitted if self.exact else None)
+
+    def request(self, window: Window) -> PsfRequest:
+        """Return what is asked of the method for the settled picture in a window."""
+        return psf_request(self.state, self.setup, self.method, window, choice=self.choice)
 
     @property
     def coarse(self) -> bool:
@@ -184,16 +190,19 @@ def render_state(
     """
     check_focus(setup.cone.na)
     if setup.altered:
-        method = SEIDEL.name
+        method, choice = SEIDEL.name, None
         why = Message("seidel from the six coefficients (what-if: coefficients altered by hand)")
     else:
-        method, why = (kept_method, NO_REASON) if kept_method else choose_for_state(state, setup)
+        choice = None if kept_method else choice_for_state(state, setup)
+        method, why = kept_method or state.optics.method, NO_REASON
+        if choice is not None:
+            method, why = choice.method, Message("{method}: {reason}", method=choice.method, reason=choice.reason)
     refused = reason_against_coefficients(setup.lens) if by_six(method) and not state.what_if.free_pupil else None
     if refused:
-        method = TRACED.name  # for the pupil; the picture itself is covered
+        method, choice = TRACED.name, None  # for the pupil; the picture itself is covered
     elif by_six(method):
         check_image(setup.coefficients)
-    task = Task(state, setup, method, why, least, cache)
+    task = Task(state, setup, method, why, least, cache, choice=choice)
     picture = moving(task, quality) if quality == "preview" else resting(task)
     return replace(picture, refused=refused) if refused else picture
 
@@ -201,7 +210,7 @@ def render_state(
 def resting(task: Task) -> Rendered:
     """Return the settled picture; its stand-in while it is pending, or where it failed, is too large or too coarse."""
     window, own = task.window("settled"), not task.state.optics.automatic or task.setup.altered
-    request = psf_request(task.state, task.setup, task.method, window)
+    request = task.request(window)
     fitted = task.fitted if task.exact else None
     samples = nodes_beyond(request, fitted)
     if samples and own and task.least[1] <= task.own_width_um:
@@ -387,12 +396,11 @@ def edge_pencil(setup: ParaxialSetup) -> Rays:
     return pencil(setup.lens, setup.source, *edge_points())
 
 
-def choose_for_state(state: State, setup: ParaxialSetup) -> tuple[str, Message]:
-    """Return the method in use and why: a person's choice needs no reason."""
+def choice_for_state(state: State, setup: ParaxialSetup) -> Choice | None:
+    """Return what ``auto`` chooses; None where a person chose the method."""
     if not state.optics.automatic:
-        return state.optics.method, NO_REASON
-    choice = choose(setup.lens, setup.source, state.optics.tolerance, state.optics.clip)
-    return choice.method, Message("{method}: {reason}", method=choice.method, reason=choice.reason)
+        return None
+    return choose(setup.lens, setup.source, state.optics.tolerance, state.optics.clip)
 
 
 def at_least(r_squared: float) -> str:

@@ -9,7 +9,7 @@ import p2sf
 from p2sf.metrics.window import radius_of_energy
 from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import huygens_psf
-from p2sf.psf.methods import PsfOptions, choose, render
+from p2sf.psf.methods import PsfOptions, render
 from p2sf_explorer.compute.framing import light_rings
 from p2sf_explorer.compute.live import Live, live
 from p2sf_explorer.compute.matrix import pictures
@@ -67,8 +67,7 @@ def test_a_settled_picture_is_that_of_the_library(method):
         energy = 1.0 if psf.energy is None else psf.energy
         np.testing.assert_allclose(values, psf.values * energy, rtol=1e-6, atol=1e-9 * psf.values.max())
         assert tile.settled and (method == "auto" or tile.method == method)
-        bound = choose(setup.lens, setup.source, state.optics.tolerance).plane_wave_error if method == "auto" else 0.0
-        assert tile.error == pytest.approx(psf.predicted_error - bound, rel=1e-9, abs=1e-15)  # of plane waves, added
+        assert tile.error == psf.predicted_error
 
 
 def test_previews_keep_the_r_squared_that_they_are_predicted():

@@ -35,7 +35,7 @@ from p2sf_explorer.compute.method import (
     NO_REASON,
     Task,
     Window,
-    choose_for_state,
+    choice_for_state,
     clipped_picture,
     too_coarse,
 )
@@ -326,11 +326,13 @@ def _moving_psf(place: MatrixPoint, task: Task, width_um: float) -> MatrixTile:
 
 def _resting_psf(place: MatrixPoint, width_um: float, stopped: Callable[[], bool]) -> MatrixTile:
     """Return the PSF by the method that was chosen; the density of rays where that would need too many samples."""
-    method = SEIDEL.name if place.setup.altered else choose_for_state(place.state, place.setup)[0]
+    choice = None if place.setup.altered else choice_for_state(place.state, place.setup)
+    own = SEIDEL.name if place.setup.altered else place.state.optics.method
+    method = own if choice is None else choice.method
     task = _task(place, method)
     count = SAMPLES[2 * task.own_width_um * AIRY_RADIUS / task.extent.airy_um > SAMPLES[0]]
     window = count, width_um / count
-    request = psf_request(place.state, place.setup, method, window)
+    request = psf_request(place.state, place.setup, method, window, choice=choice)
     if too_coarse(task, window) or nodes_beyond(request, task.fitted if task.exact else None):
         return _light(place, _density(task, window, "settled"), settled=True)
     return _light(place, psf_of(request, stopped), settled=True)
