@@ -31,7 +31,7 @@ MOST_TERMS = 2**17  # waves times climbs, after the first: some tens of millisec
 MOST_IN_PREVIEW = 2**12  # most waves for a climb in a preview, which otherwise takes its best sample
 CLIMB_STEPS = 12  # of Newton's method
 MOST_WHILE_CLIMBING = 2**22  # waves times steps, beyond which fewer steps have to do: a second for all
-MANY_WAVES = 2**20  # from which on the brightest sample is the peak: a climb takes three times as long as the picture
+MANY_WAVES = 2**20  # from which on plane ones say where to climb: the sum of spherical ones takes twenty times as long
 ENOUGH = {"preview": 1e-3, "settled": 1e-6}  # of the peak: the next step gains about the square of it
 ROUNDING = 1e-9
 _later: ContextVar[bool] = ContextVar("later", default=False)
@@ -96,8 +96,6 @@ def peak_of(
     if quality == "preview":
         few = waves.fx.size <= MOST_IN_PREVIEW
         return climb(waves, brightest.x_um, brightest.y_um, quality) if few else brightest
-    if waves.fx.size > MANY_WAVES:
-        return brightest
     half = waves.blur_um + BORDER / waves.spread
     held = half <= -axis[0] or _border(intensity) < DARK * intensity.max()
     if held and pixel_um * waves.spread * ENOUGH_SAMPLES <= 1 + ROUNDING:
@@ -107,7 +105,8 @@ def peak_of(
         wide, half = waves, waves.reach_um / sqrt(2)
     side = min(MOST_SAMPLES, ceil(2 * half * FINE * waves.spread))
     grid = centred_axis(side, 2 * half / side)
-    starts = _candidates(wide.intensity(grid, grid, np.float32), grid, waves.spread)
+    where = wide.plane if wide.fx.size > MANY_WAVES else wide
+    starts = _candidates(where.intensity(grid, grid, np.float32), grid, waves.spread)
     own = brightest.value, brightest.x_um, brightest.y_um
     return _highest(wide, [own, *starts] if own[0] > starts[0][0] else starts)
 
