@@ -43,7 +43,7 @@ class Grating:
     def words(self) -> Message:
         """Return the description of the grating with numbers."""
         return Message(
-            "grating: {lines:g} lines per mm, order {order:g}, turned by {angle:g}°",
+            "grating: {lines:g} lines per mm, order {order:g}, turned by {angle:z.6g}°",
             lines=self.lines_per_mm,
             order=self.order,
             angle=self.turn_deg,

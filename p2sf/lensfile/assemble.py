@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from itertools import zip_longest
 from math import hypot, inf, isfinite
+from typing import TypeVar
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GeometryError, GlassError
@@ -23,6 +24,7 @@ from p2sf.lensfile.stated import compare, in_remarks
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import stop_rim
 
+Made = TypeVar("Made")
 HIGHEST_ORDER = 40
 SAME_DEG_C, SAME_ATM = 5.0, 0.05  # which change the index of a glass relative to air by less than 3e-5
 MOST_SURFACES = 1000
@@ -58,15 +60,16 @@ def assemble(raw: RawLens, sources: GlassSources, notes: Notebook, source: LensT
     lens = _with_line(lambda: with_solves(lens, raw, notes), raw, source, None)
     lens = _with_line(lambda: _with_aperture(lens, raw, notes), raw, source, raw.aperture_line or raw.wavelength_line)
     lens = _with_line(lambda: _with_obscuration(lens, raw, notes), raw, source, None)
-    lens = _with_line(lambda: _with_fields(lens, raw, notes), raw, source, raw.field_line)
     if not raw.sensor_stated:
         lens = _with_line(lambda: _at_paraxial_focus(lens, raw, notes), raw, source, None)
+    lens = _with_line(lambda: _with_curved_sensor(lens, raw, notes), raw, source, raw.image.line if raw.image else None)
+    slopes = _with_line(lambda: _field_slopes(lens, raw, notes), raw, source, raw.field_line)
+    lens = _with_fields(lens, slopes)
     _read_notes(lens, raw, notes)
     own = {each.kind for each in raw.stated}
     compare([*raw.stated, *(each for each in in_remarks(source) if each.kind not in own)], lens, notes)
-    lens = _with_line(lambda: _with_vignetting(lens, raw, notes), raw, source, None)
+    lens = _with_line(lambda: _with_vignetting(lens, raw, slopes, notes), raw, source, None)
     _note_telecentric(lens, raw, notes)
-    lens = _with_line(lambda: _with_curved_sensor(lens, raw, notes), raw, source, raw.image.line if raw.image else None)
     return _with_line(lambda: _with_object(lens, raw, notes), raw, source, None)
 
 
@@ -148,7 +151,7 @@ def check_stop(raw: RawLens, source: LensText, line: int | None) -> None:
         )
 
 
-def _with_line(make: Callable[[], Lens], raw: RawLens, source: LensText, line: int | None) -> Lens:
+def _with_line(make: Callable[[], Made], raw: RawLens, source: LensText, line: int | None) -> Made:
     """Call ``make`` and attach a line number to its errors."""
     try:
         return make()
@@ -368,9 +371,10 @@ def _open_to_its_rims(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
     return replace(lens, aperture=Aperture("stop_semi_diameter", rim))
 
 
-def _with_fields(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
+def _field_slopes(lens: Lens, raw: RawLens, notes: Notebook) -> list[tuple[float, float]]:
+    """Return the slopes (x, y) of the chief rays of all fields; none where they have none, which is noted."""
     if not raw.fields:
-        return lens
+        return []
     stop = lens.stop_surface or conjugates.limiting_rim(lens, lens.reference_wavelength_um)[0]
     try:
         slopes = conjugates.field_slopes(raw, conjugates.trace(lens, stop, lens.reference_wavelength_um))
@@ -378,13 +382,28 @@ def _with_fields(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
         if raw.field_kind == "angle":
             raise
         notes.add("caution", "{error}; the field list holds the axis only", None, raw.field_line, error=failure)
-        return lens
+        return []
     if raw.field_kind in HEIGHTS:
         notes.add(
             "read", "fields given as {kind} are kept as angles at the entrance pupil", kind=HEIGHTS[raw.field_kind]
         )
     if raw.field_kind == "real_image_height" and any(map(any, slopes)):
-        notes.add("caution", "real image heights are taken as paraxial ones; distortion makes the angles differ")
+        from p2sf.lensfile.real_heights import real_slopes  # traces rays
+
+        heights = [(x * raw.unit_mm, y * raw.unit_mm) for x, y in raw.fields]
+        return real_slopes(lens, heights, slopes, _depth_mm(raw))
+    return slopes
+
+
+def _depth_mm(raw: RawLens) -> float:
+    """Return the distance of the object of a file, infinite where it is not in front."""
+    distance = raw.object_distance * raw.unit_mm
+    return distance if 0 < distance < FAR else inf
+
+
+def _with_fields(lens: Lens, slopes: list[tuple[float, float]]) -> Lens:
+    if not slopes:
+        return lens
     across, fields = zip(*conjugates.degrees_of(slopes), strict=True)
     return replace(lens, fields_deg=fields, fields_x_deg=across if any(across) else ())
 
@@ -435,19 +454,13 @@ def _read_notes(lens: Lens, raw: RawLens, notes: Notebook) -> None:
         notes.add("read", "lengths converted to mm from units of {unit:g} mm", unit=raw.unit_mm)
 
 
-def _with_vignetting(lens: Lens, raw: RawLens, notes: Notebook) -> Lens:
+def _with_vignetting(lens: Lens, raw: RawLens, slopes: list[tuple[float, float]], notes: Notebook) -> Lens:
     """Return the lens with rims for vignetting factors, where it has none."""
     if raw.vignetting is None:
         return lens
     from p2sf.lensfile.vignetting_rims import with_vignetting  # traces rays
 
-    stop = lens.stop_surface or conjugates.limiting_rim(lens, lens.reference_wavelength_um)[0]
-    try:
-        slopes = conjugates.field_slopes(raw, conjugates.trace(lens, stop, lens.reference_wavelength_um))
-    except GeometryError:
-        slopes = []
-    distance = raw.object_distance * raw.unit_mm
-    return with_vignetting(lens, raw.vignetting, slopes, distance if 0 < distance < FAR else inf, notes)
+    return with_vignetting(lens, raw.vignetting, slopes, _depth_mm(raw), notes)
 
 
 def _aperture_words(aperture: Aperture) -> Message:

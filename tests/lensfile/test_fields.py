@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from p2sf import Source
-from p2sf.errors import GeometryError
+from p2sf.errors import GeometryError, LensFileError
 from p2sf.lens.lens import Lens, with_aim
 from p2sf.lensfile import load_lens
+from p2sf.lensfile.real_heights import landing
 from p2sf.lensfile.writing import write_lens
 from p2sf.tolerance.differentials import usual_sources
 from tests.support.lenses.lens_files import FOLDER, read
@@ -119,3 +120,56 @@ def test_a_reference_is_one_of_the_wavelengths_and_each_of_these_has_a_weight():
     for wrong in ({"reference_nm": 500.0}, {"wavelength_weights": (1.0,)}, {"wavelength_weights": (0.0, 0.0, 0.0)}):
         with pytest.raises(GeometryError):
             replace(lens, **wrong)
+
+
+HEIGHTS = "../lens_files/real_image_height.zmx"
+
+
+def chief_height_mm(angle_deg: float) -> float:
+    """Return where the chief ray of the plano-convex singlet of `HEIGHTS` lands, mm, by Snell's law in its plane.
+
+    It goes through the middle of the stop, meets a plane 6 mm behind, a sphere of radius −25 mm 5 mm behind that, and
+    the sensor 48.4 mm behind the sphere's vertex.
+    """
+    slope = np.tan(np.deg2rad(angle_deg))
+    inside = np.arcsin(np.sin(np.deg2rad(angle_deg)) / INDEX)
+    y, ray = 6 * slope, np.array([np.cos(inside), np.sin(inside)])  # z and y
+    place, middle = np.array([0.0, y]), np.array([5.0 - 25.0, 0.0])
+    along = (middle - place) @ ray
+    place = place + (along + np.sqrt(along**2 - ((place - middle) ** 2).sum() + 625)) * ray
+    normal = (place - middle) / 25.0
+    cosine = normal @ ray
+    ray = INDEX * ray + (np.sqrt(1 - INDEX**2 * (1 - cosine**2)) - INDEX * cosine) * normal
+    return float(place[1] + (5.0 + 48.4 - place[0]) * ray[1] / ray[0])
+
+
+def of_cases(*changes: tuple[str, str]) -> Lens:
+    return read(HEIGHTS, *changes).lens
+
+
+@pytest.mark.parametrize("height", [20.0, -20.0, 5.0])
+def test_a_real_image_height_is_where_the_chief_ray_lands(height):
+    """At 20 mm first order would say 22.46°, whose ray lands at 19.28 mm."""
+    lens = of_cases(("YFLN 0 20", f"YFLN 0 {height:g}"))
+    assert chief_height_mm(lens.fields_deg[1]) == pytest.approx(height, abs=1e-8)
+
+
+def test_real_image_heights_along_x_and_y_lie_in_their_direction():
+    lens = of_cases(("XFLN 0 0", "XFLN 0 12"), ("YFLN 0 20", "YFLN 0 16"))
+    slopes = np.tan(np.deg2rad([lens.fields_x_deg[1], lens.fields_deg[1]]))
+    assert slopes[0] / slopes[1] == pytest.approx(12 / 16, rel=1e-9)
+    assert chief_height_mm(np.rad2deg(np.arctan(np.hypot(*slopes)))) == pytest.approx(20.0, abs=1e-8)
+
+
+def test_real_image_heights_of_a_tilted_lens_are_met_in_both_directions():
+    angles = read(TILTED).lens
+    landed = [landing(angles, tuple(np.tan(np.deg2rad(place))), np.inf) for place in PLACES]
+    across, up = (" ".join(f"{each[k]:.12f}" for each in landed) for k in (0, 1))
+    lens = read(TILTED, ("FTYP 0", "FTYP 3"), ("XFLN 0 0 3", f"XFLN {across}"), ("YFLN -5 5 0", f"YFLN {up}")).lens
+    np.testing.assert_allclose(np.transpose([lens.fields_x_deg, lens.fields_deg]), PLACES, atol=1e-8)
+
+
+def test_a_real_image_height_that_no_chief_ray_meets_is_refused_with_its_line():
+    with pytest.raises(LensFileError, match=r"no chief ray lands 90 mm from the axis") as refused:
+        of_cases(("YFLN 0 20", "YFLN 0 90"))
+    assert refused.value.line is not None

@@ -151,9 +151,8 @@ def test_a_working_f_number_is_that_of_the_finite_object():
     assert float(working_f_number(lens, 150.0, lens.reference_wavelength_um)) == pytest.approx(5.0, rel=1e-12)
 
 
-@pytest.mark.parametrize("kind", [2, 3])
-def test_image_heights_become_angles(kind):
-    lens = read(DOUBLET, ("FTYP 0", f"FTYP {kind}")).lens
+def test_paraxial_image_heights_become_angles():
+    lens = read(DOUBLET, ("FTYP 0", "FTYP 2")).lens
     focus = float(cardinal_points(lens, lens.reference_wavelength_um).back_focal_distance)
     slope = field_from_image_height(with_sensor(lens, focus), lens.reference_wavelength_um, 1.0)
     assert np.tan(np.deg2rad(lens.fields_deg[1])) == pytest.approx(float(slope), rel=1e-10)

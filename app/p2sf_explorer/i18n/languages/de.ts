@@ -27,6 +27,7 @@
 <message><source>{share:.2g} % of the picture is transparent, which is left out: its colours count as opaque; put it on a background first if that is not meant</source><translation>{share:.2g} % des Bildes sind durchsichtig, was unbeachtet bleibt: Die Farben gelten als deckend; wenn das nicht gemeint ist, das Bild zuerst auf einen Hintergrund legen</translation></message>
 <message><source>{why}. Drop a lens file on the window, or take one with maps.</source><translation>{why}. Eine Objektivdatei auf das Fenster ziehen oder ein Objektiv mit Karten nehmen.</translation></message>
 <message><source>a picture of light up to {light:g} has noise of {noise:.2g} there; errors up to {part:.0%} of the noise are hidden by it, and larger than what was asked for</source><translation>ein Bild mit Licht bis {light:g} hat dort ein Rauschen von {noise:.2g}; Fehler bis zu {part:.0%} des Rauschens verschwinden darin, und das ist mehr als verlangt</translation></message>
+<message><source>no chief ray lands {height:g} mm from the axis of the sensor, where the file has a field; state it as an angle</source><translation>kein Hauptstrahl trifft {height:g} mm von der Achse auf den Sensor, wo die Datei einen Feldpunkt hat; ihn als Winkel angeben</translation></message>
 <message><source>no maps</source><translation>keine Karten</translation></message>
 <message><source>A landscape that reaches from 1 m to 10 m: move the focus through it</source><translation>Eine Landschaft, die von 1 m bis 10 m reicht: die Schärfe hindurchziehen</translation></message>
 <message><source>Choose a map of depths</source><translation>Eine Karte der Entfernungen wählen</translation></message>
@@ -1865,7 +1866,6 @@
 <message><source>rays within a radius of {radius:g} are lost, a hole or an obscuration, where rims clip</source><translation>Strahlen innerhalb eines Radius von {radius:g} gehen verloren, ein Loch oder eine Abschattung, wo Fassungen abschneiden</translation></message>
 <message><source>read</source><translation>gelesen</translation></message>
 <message><source>reads another file, which was not found</source><translation>liest eine andere Datei, die nicht vorliegt</translation></message>
-<message><source>real image heights are taken as paraxial ones; distortion makes the angles differ</source><translation>wahre Bildhöhen gelten als paraxiale; durch Verzeichnung weichen die Winkel ab</translation></message>
 <message><source>rear group</source><translation>hintere Gruppe</translation></message>
 <message><source>red</source><translation>Rot</translation></message>
 <message><source>reference from {count} rays, {seconds} s</source><translation>Referenz aus {count} Strahlen, {seconds} s</translation></message>
@@ -2653,7 +2653,7 @@
 <message><source>PSFs of this database are predicted to be too far from those of exact rays {where} to say how far, {median}; {remedy}</source><translation>PSFs dieser Datenbank liegen {where} zu weit von denen exakter Strahlen, um zu sagen, wie weit, {median}; {remedy}</translation></message>
 <message><source>biconic</source><translation>bikonische Fläche</translation></message>
 <message><source>grating</source><translation>Gitter</translation></message>
-<message><source>grating: {lines:g} lines per mm, order {order:g}, turned by {angle:g}°</source><translation>Gitter: {lines:g} Linien je mm, Ordnung {order:g}, um {angle:g}° gedreht</translation></message>
+<message><source>grating: {lines:g} lines per mm, order {order:g}, turned by {angle:z.6g}°</source><translation>Gitter: {lines:g} Linien je mm, Ordnung {order:g}, um {angle:z.6g}° gedreht</translation></message>
 <message><source>predicted 1 − R² against exact rays: median {median:.1e}, up to {worst:.1e} {where}</source><translation>vorausgesagtes 1 − R² gegen exakte Strahlen: Median {median:.1e}, bis {worst:.1e} {where}</translation></message>
 <message><source>predicted 1 − R² against exact rays: median {median:.1e}, too far from them to tell {where}</source><translation>vorausgesagtes 1 − R² gegen exakte Strahlen: Median {median:.1e}, {where} zu weit von ihnen für eine Zahl</translation></message>
 <message><source>in half of this space PSFs are too far from exact rays to predict how far</source><translation>im halben Raum liegen die PSFs zu weit von exakten Strahlen, um zu sagen, wie weit</translation></message>
