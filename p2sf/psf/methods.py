@@ -386,8 +386,8 @@ def render(
     if method != AUTO:
         return psf_of(asked)
     psf = psf_of(chosen(asked))
-    flatness = flatness_of(psf.values)
-    if psf.predicted_error is None or flatness * psf.predicted_error <= 1 - options.min_r2:
+    error, allowed, flatness = psf.predicted_error, 1 - options.min_r2, flatness_of(psf.values)
+    if error is None or not error <= allowed < flatness * error:
         return psf
     return psf_of(chosen(asked, flatness))
 

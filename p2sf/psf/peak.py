@@ -31,7 +31,8 @@ MOST_TERMS = 2**17  # waves times climbs, after the first: some tens of millisec
 MOST_IN_PREVIEW = 2**12  # most waves for a climb in a preview, which otherwise takes its best sample
 CLIMB_STEPS = 12  # of Newton's method
 MOST_WHILE_CLIMBING = 2**22  # waves times steps, beyond which fewer steps have to do: a second for all
-MANY_WAVES = 2**20  # from which on plane ones say where to climb: the sum of spherical ones takes twenty times as long
+MANY_WAVES = 2**14  # from which on plane ones say where to climb: of a small Fresnel number there are fewer
+SEARCH_SECONDS = 1.0  # estimated, that a sum of fewer spherical ones may take to say so
 ENOUGH = {"preview": 1e-3, "settled": 1e-6}  # of the peak: the next step gains about the square of it
 ROUNDING = 1e-9
 _later: ContextVar[bool] = ContextVar("later", default=False)
@@ -105,7 +106,7 @@ def peak_of(
         wide, half = waves, waves.reach_um / sqrt(2)
     side = min(MOST_SAMPLES, ceil(2 * half * FINE * waves.spread))
     grid = centred_axis(side, 2 * half / side)
-    where = wide.plane if wide.fx.size > MANY_WAVES else wide
+    where = wide.plane if wide.fx.size > MANY_WAVES else wide.within(SEARCH_SECONDS)
     starts = _candidates(where.intensity(grid, grid, np.float32), grid, waves.spread)
     own = brightest.value, brightest.x_um, brightest.y_um
     return _highest(wide, [own, *starts] if own[0] > starts[0][0] else starts)

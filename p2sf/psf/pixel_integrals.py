@@ -5,6 +5,7 @@ Samples farther apart than λ/(4 NA) miss the rings between them and do not repr
 """
 
 from collections.abc import Callable
+from contextlib import nullcontext
 from math import ceil, inf
 
 import numpy as np
@@ -15,6 +16,7 @@ from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.psf.huygens import FRINGES_OF_SPHERES
 from p2sf.psf.methods import AUTO, REFERENCE, SPHERICAL, USUAL, PsfOptions, method_of, render, whole_pixel_um
+from p2sf.psf.peak import peaks_on_demand
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_samples
 from p2sf.pupil.binning import bin_samples
@@ -106,7 +108,8 @@ def integrate(
     points = render_at(pixels, pixel_um) if across == 1 or wanted is False else None
     if points is not None and (across == 1 or points.energy is not None):
         return points
-    fine = render_at(fine_side(pixels, across), pixel_um / across)
+    with nullcontext() if points is None else peaks_on_demand():  # which the points have already
+        fine = render_at(fine_side(pixels, across), pixel_um / across)
     light = light_per_pixel(fine.values, pixels, across)
     share = light.sum((-2, -1))  # of the light in the finer window, which may be a little larger
     energy = None if fine.energy is None else fine.energy * (share if share.ndim else float(share))

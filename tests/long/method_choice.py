@@ -25,7 +25,7 @@ from time import process_time
 import numpy as np
 
 from p2sf.conventions import centred_axis
-from p2sf.errors import P2SFError
+from p2sf.errors import Cancelled, P2SFError
 from p2sf.lens.lens import Lens, lens_range_um, with_f_number, with_mask, with_sensor
 from p2sf.lens.positions import PARAMETER
 from p2sf.lens.source import Source
@@ -34,11 +34,11 @@ from p2sf.paraxial.first_order import cardinal_points, image_distance
 from p2sf.paraxial.positions import lens_at
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.compare import r_squared, relative_l2
-from p2sf.psf.huygens import first_counts
-from p2sf.psf.methods import PsfOptions, render, whole_pixel_um
+from p2sf.psf.huygens import RayPupil, Watch, first_counts, sum_rays
+from p2sf.psf.methods import PsfOptions, whole_pixel_um
 from p2sf.psf.pixel_integrals import render_integrated
 from p2sf.psf.smooth_pupil import all_reach
-from p2sf.psf.spherical import fresnel_number
+from p2sf.psf.spherical import fresnel_number, spherical_pupil
 from p2sf.psf.sums.plane_waves import window_reach_um
 from p2sf.pupil.mask import PupilMask
 from p2sf.raytrace.exit_sphere import exit_sphere
@@ -51,6 +51,7 @@ FEWEST = 1000.0  # Fresnel number, and
 MOST_WAVES = 3.0  # of defocus, between which plane waves are the reference
 EVERY = 10  # states, of which one is compared with a sum of its own
 MOST_PAIRS = 2e9  # wavelets at places of that sum: some minutes
+MOST_SECONDS = 60.0  # of a reference
 SECONDS, MEGABYTES = 5.0, 1000.0
 
 
@@ -175,9 +176,11 @@ def _reference(lens: Lens, source: Source, window: tuple[int, float]) -> tuple[s
         number = fresnel_number(lens, source)
         waves = abs(float(coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um).wd))
         plane = number == inf or (number > FEWEST and waves < MOST_WAVES)
-        name = "huygens" if plane else "spherical"
-        return name, render(lens, source, name, *window).values
-    except P2SFError as reason:
+        name, pupil_of = ("huygens", RayPupil) if plane else ("spherical", spherical_pupil)
+        end = process_time() + MOST_SECONDS
+        watch = Watch(cancelled=lambda: process_time() > end)
+        return name, sum_rays(pupil_of(lens, source), window, watch=watch).values
+    except (P2SFError, Cancelled) as reason:
         return f"none: {reason}", None
 
 

@@ -10,14 +10,17 @@ from numpy.polynomial.legendre import leggauss
 
 import p2sf
 from p2sf.camera import Request, set_up
+from p2sf.lens.lens import with_f_number
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.wavefront import wavefront
-from p2sf.psf.huygens import huygens_psf
-from p2sf.psf.methods import render
+from p2sf.psf import peak
+from p2sf.psf.huygens import huygens_psf, sum_rays
+from p2sf.psf.methods import render, whole_pixel_um
 from p2sf.psf.pixel_integrals import render_integrated
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import seidel_psf
+from p2sf.psf.spherical import spherical_pupil
 from p2sf.psf.sums.plane_waves import BLOCK, Waves
 from p2sf.pupil.domain import WHOLE
 from p2sf.raytrace.pencil import pencil
@@ -189,3 +192,15 @@ def test_the_light_near_a_point_of_millions_of_waves_takes_little_memory():
     up = (light(0.3, -0.7 + h) - light(0.3, -0.7 - h)) / (2 * h)
     assert value == pytest.approx(light(0.3, -0.7), rel=1e-9)
     assert across * step_x + up * step_y == pytest.approx(2 * gain, rel=1e-2) and gain > 0
+
+
+@pytest.mark.parametrize(("name", "field_deg", "f_number"), [("landscape", 9.8, 9.7), ("double_gauss_28", 14.0, 4.0)])
+def test_plane_waves_lead_to_the_peak_of_many_spherical_ones(name, field_deg, f_number, monkeypatch):
+    """As many as these are still searched by their own sum, which of a million took minutes."""
+    lens, source = with_f_number(find_lens(name), f_number), Source(field_deg=field_deg)
+    window = 24, whole_pixel_um(lens, source, 24)
+    found = []
+    for most in (0, 2**30):
+        monkeypatch.setattr(peak, "MANY_WAVES", most)
+        found.append(sum_rays(spherical_pupil(lens, source), window, None).strehl)
+    assert found[0] == pytest.approx(found[1], rel=1e-6)

@@ -82,6 +82,10 @@ class Waves:
         """Return the plane waves that agree with these at the chief ray: these themselves."""
         return self
 
+    def within(self, seconds: float) -> "Waves":
+        """Return waves whose sum takes these estimated seconds at most, and may be rough: these themselves."""
+        return self
+
     def field(self, x: np.ndarray, y: np.ndarray, dtype: DTypeLike = np.float64) -> np.ndarray:
         """Return the field over a grid of x and y, µm, complex, (…, y, x)."""
         amplitude = self.amplitude.astype(np.result_type(dtype, np.complex64), copy=False)

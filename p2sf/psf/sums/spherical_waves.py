@@ -56,6 +56,10 @@ class SphericalWaves(Waves):
         """Return the plane waves that agree with the wavelets at the chief ray's point, to second order beside it."""
         return Waves(self.amplitude, self.fx, self.fy, WHOLE, self.blur_um, self.reach_um)
 
+    def within(self, seconds: float) -> "SphericalWaves":
+        """Return the same waves with ``most_seconds``."""
+        return replace(self, most_seconds=seconds)
+
     @cached_property
     def directions(self) -> tuple[np.ndarray, np.ndarray]:
         """Return the direction cosines along x and y from each node to the chief ray's point."""
