@@ -26,9 +26,10 @@ class Live:
 
     ``method`` is the method chosen, by a person or by ``auto``; ``milliseconds`` of each part of the work; ``quality``
     is "preview" while a slider moves, else "settled"; ``pending`` is the sum of waves that the PSF stands in for,
-    ``request`` the one that made it, with up to ``finest`` samples a side, and ``refused`` says why the chosen method
-    has none here. ``before``: the views of the frame before, while a slider moves. With a B pinned, ``side`` names what
-    is on screen, ``sides`` are the states of A and B, and ``difference`` is what A − B shows in place of this answer.
+    ``request`` the one that made it, with up to ``finest`` samples a side, ``slow`` whether that sum takes longer than
+    a frame, and ``refused`` says why the chosen method has none here. ``before``: the views of the frame before, while
+    a slider moves. With a B pinned, ``side`` names what is on screen, ``sides`` are the states of A and B, and
+    ``difference`` is what A − B shows in place of this answer.
     """
 
     state: State
@@ -51,6 +52,7 @@ class Live:
     request: PsfRequest | None = None
     finest: int = 0
     refused: Message | None = None
+    slow: bool = False
     difference: Any = None
 
 
@@ -104,6 +106,7 @@ def live(
         request=picture.request,
         finest=picture.finest,
         refused=picture.refused,
+        slow=picture.slow,
         before=before or {},
         milliseconds={"layout": 1e3 * (placed - begun), "psf": 1e3 * (finished - placed)},
     )

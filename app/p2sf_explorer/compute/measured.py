@@ -69,25 +69,25 @@ def measured_parts(request: MeasureRequest) -> tuple[PupilPart, ...]:
 
 def mtf_is_live(live: Live, request: MeasureRequest) -> bool:
     """Return whether the transfer function is computed within a frame; behind a mask it takes some 40 ms."""
-    if too_steep(live) or not request.lens.mask.clear:
+    if takes_long(live) or not request.lens.mask.clear:
         return False
     return otf_samples(measured_parts(request)[0].pupil) <= LIVE_SAMPLES
 
 
 def energy_is_live(live: Live, request: MeasureRequest) -> bool:
     """Return whether the encircled energy is computed within a frame."""
-    if too_steep(live):
+    if takes_long(live):
         return False
     pupil = measured_parts(request)[0].pupil
     return pupil.plain and blur_waves(pupil, pupil.centroid_um) <= LIVE_WAVES
 
 
-def too_steep(live: Live) -> bool:
-    """Return whether the picture is the density of rays because a sum of its many waves takes too long for a frame.
+def takes_long(live: Live) -> bool:
+    """Return whether a sum of the picture's waves takes longer than a frame, or shows no more than their rays.
 
     To find the pupil that a measure needs takes longer still: seconds, of a fast lens at full field.
     """
-    return live.psf.method == "geometric"
+    return live.slow or live.psf.method == "geometric"
 
 
 def energy_at(found: Energy, radius_um: np.ndarray) -> np.ndarray:

@@ -66,7 +66,8 @@ class Rendered:
 
     ``why`` is empty for a person's own choice. ``pupil`` is the wavefront where the picture's own rays give it too.
     ``request`` is the sum of waves that made the picture, which may have up to ``finest`` samples a side, ``pending``
-    the one that it stands in for. ``refused`` says why the method that a person chose has no picture here.
+    the one that it stands in for. ``refused`` says why the method that a person chose has no picture here. ``slow``:
+    whether its sum takes longer than a frame, at rest.
     """
 
     psf: Psf
@@ -78,6 +79,7 @@ class Rendered:
     request: PsfRequest | None = None
     finest: int = 0
     refused: Message | None = None
+    slow: bool = False
 
 
 @dataclass(frozen=True)
@@ -114,7 +116,7 @@ class Task:
 
     @cached_property
     def first_fit(self) -> FittedPencil | None:
-        """Return a fit to the rays traced so far, which tells how steep the phase is; None where one is lost."""
+        """Return a fit to the rays traced so far, which tells how many nodes a sum needs; None where one is lost."""
         return first_fit(self.traced) if self.traced else None
 
     @cached_property
@@ -148,7 +150,7 @@ class Task:
         """Return the most samples a side that a picture so wide is made with in some seconds."""
         window = SIZES[-1], width / SIZES[-1]
         request = self.request(window)
-        return most_samples(request, self.fitted if self.exact else None)
+        return most_samples(request, self.first_fit if self.exact else None)
 
     def request(self, window: Window) -> PsfRequest:
         """Return what is asked of the method for the settled picture in a window."""
@@ -211,19 +213,18 @@ def resting(task: Task) -> Rendered:
     """Return the settled picture; its stand-in while it is pending, or where it failed, is too large or too coarse."""
     window, own = task.window("settled"), not task.state.optics.automatic or task.setup.altered
     request = task.request(window)
-    fitted = task.fitted if task.exact else None
+    fitted = task.first_fit if task.exact else None
     samples = nodes_beyond(request, fitted)
     if samples and own and task.least[1] <= task.own_width_um:
         refused = too_many(task, samples)
         return replace(ray_density_picture(task, window), why=refused, refused=refused)
     if samples or task.coarse:
         return ray_density_picture(task, window)
-    if task.cache is None or not slow(request, fitted):
-        return settled_picture(task, psf_of(request), request)
-    result = task.cache.get(request)
+    late = slow(request, fitted)
+    result = task.cache.get(request) if late and task.cache else psf_of(request)
     if isinstance(result, Psf):
-        return settled_picture(task, result, request)
-    stand_in = moving(task, "settled")
+        return replace(settled_picture(task, result, request), slow=late)
+    stand_in = replace(moving(task, "settled"), slow=True)
     if result is not None:
         return replace(stand_in, why=result)
     soon = Message("{method} follows: its sum of waves takes a moment", method=task.method)

@@ -47,7 +47,7 @@ def _cost(state: State) -> tuple[PredictedCost, Psf | None]:
         setup = paraxial_setup(state)
         task = Task(state, setup, method, NO_REASON, ALONE, None)
         request = psf_request(state, setup, method, task.window("settled"))
-        fitted = task.fitted if task.exact else None
+        fitted = task.first_fit if task.exact else None
         if nodes_beyond(request, fitted) or slow(request, fitted):
             return PredictedCost(method, inf, inf), None
         psfs = [psf_of(request) for _ in range(REPEATS)]

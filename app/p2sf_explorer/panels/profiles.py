@@ -68,7 +68,9 @@ class ProfilesPanel(CurvesPanel):
         self.clear.set_data(*(x[outward] if masked else () for x in (view.position_um, view.clear_energy)))
 
     def _paint(self, asked: ProfileCurves, view: ProfileCurves) -> Message:
-        """Paint the energy and return what it is a share of."""
+        """Paint the energy, and sections that were rough, and return what it is a share of."""
+        if self._live and asked.rough and not view.rough and not self._live.difference:
+            self._show_sections(self._live, view)
         if self._live is None or not np.isfinite(view.energy).all():
             return view.method
         outward = view.position_um >= 0

@@ -15,6 +15,7 @@ from p2sf.raytrace.pencil import displayed_opd, pencil, pupil_grid
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf_explorer.compute.autofocus import amount, best_shift_um, open_nodes
 from p2sf_explorer.compute.live import live
+from p2sf_explorer.compute.measured import measure_request
 from p2sf_explorer.compute.pupil import pupil_of
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.compute.views.profiles import fine_lines
@@ -193,7 +194,7 @@ def test_a_path_that_is_a_defocus_is_focused_away():
 def test_sections_of_the_psf_go_through_its_samples(mask, method):
     answer = live(new_state(method=method, f_number=8.0, field_deg=5.0, **mask))
     psf = answer.psf
-    lines = fine_lines(answer, psf.x_um[1:])  # as many on either side of the middle
+    lines = fine_lines(measure_request(answer), psf.x_um[1:])  # as many on either side of the middle
     middle, scale = psf.values.shape[0] // 2, psf.sum_over_peak
     for line, samples in zip(lines, (psf.values[middle, 1:], psf.values[1:, middle]), strict=True):
         assert line == pytest.approx(scale * samples, abs=2e-3 * psf.strehl)

@@ -7,6 +7,7 @@ from p2sf.conventions import UM_PER_MM, centred_axis
 from p2sf.errors import GeometryError
 from p2sf.metrics.window import radius_of_energy
 from p2sf.psf.geometric import RayBlur, density, geometric_psf, over_unaberrated, polar, ray_blur
+from p2sf.psf.methods import psf_of
 from p2sf.pupil.domain import HALF
 from p2sf.pupil.mask import CLEAR
 from p2sf.pupil.quadrature import disc_nodes
@@ -16,6 +17,7 @@ from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.measured import MeasureRequest, measure_request
 from p2sf_explorer.compute.setup import default_state, paraxial_setup, with_lens
 from p2sf_explorer.compute.views.mtf import Contrast, contrast
+from p2sf_explorer.compute.views.profiles import answer as finished
 from p2sf_explorer.compute.views.profiles import profiles
 from p2sf_explorer.compute.warnings import TOGETHER
 from p2sf_explorer.state.limits import CHOICES
@@ -185,6 +187,23 @@ def test_what_needs_the_pupil_of_many_waves_waits_for_a_worker():
             curves = profiles(answer)
             assert process_time() - before < 0.5
             assert curves.pending == measure_request(answer) or quality == "preview"
+
+
+@pytest.mark.parametrize(("lens", "field", "method"), [("fast_gauss_f14", 12.0, "auto"), ("petzval", 3.0, "huygens")])
+def test_sections_and_measures_of_a_picture_that_came_late_wait_too(lens, field, method):
+    """They took up to a second of the window's thread when the sum of waves came, after each step of the slider."""
+    state, cache = change(with_lens(State(), lens), field_deg=field, method=method), SumCache()
+    request = live(state, cache=cache).pending
+    cache.keep(request, psf_of(request))
+    late = live(state, cache=cache)
+    assert late.psf.method != "geometric" and isinstance(contrast(late), MeasureRequest)
+    rough = profiles(late)
+    whole = finished(rough, lambda: False, lambda share, found: None)
+    assert rough.rough and rough.pending and not whole.rough and whole.pending is None
+    assert np.isnan(rough.energy).all() and np.isfinite(whole.energy).all()
+    middle = late.psf.values.shape[0] // 2
+    for section, samples in ((whole.along_x, late.psf.values[middle]), (whole.along_y, late.psf.values[:, middle])):
+        assert np.corrcoef(section, np.interp(whole.position_um, late.psf.x_um, samples))[0, 1] > 0.99
 
 
 def test_what_is_found_within_a_frame_does_not_wait():

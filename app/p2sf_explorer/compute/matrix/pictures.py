@@ -333,7 +333,7 @@ def _resting_psf(place: MatrixPoint, width_um: float, stopped: Callable[[], bool
     count = SAMPLES[2 * task.own_width_um * AIRY_RADIUS / task.extent.airy_um > SAMPLES[0]]
     window = count, width_um / count
     request = psf_request(place.state, place.setup, method, window, choice=choice)
-    if too_coarse(task, window) or nodes_beyond(request, task.fitted if task.exact else None):
+    if too_coarse(task, window) or nodes_beyond(request, task.first_fit if task.exact else None):
         return _light(place, _density(task, window, "settled"), settled=True)
     return _light(place, psf_of(request, stopped), settled=True)
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from math import prod
 
 import numpy as np
 
@@ -9,6 +10,7 @@ from p2sf.errors import P2SFError
 from p2sf.messages import Message
 from p2sf.metrics.measures import energy_in
 from p2sf.metrics.perfect import airy_curves
+from p2sf.paraxial.seidel import Coefficients
 from p2sf.psf.fitted import fit, fitted_waves
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel_stack import as_fit
@@ -21,8 +23,8 @@ from p2sf_explorer.compute.measured import (
     energy_is_live,
     measure_request,
     measured_parts,
+    takes_long,
 )
-from p2sf_explorer.compute.sampled import by_coefficients
 
 POINTS = {"preview": 257, "settled": 513}
 NOTHING, LATER = Message(""), Message("the energy follows when the slider rests")
@@ -36,7 +38,8 @@ class ProfileCurves:
     ``energy`` and ``perfect_energy``: share of all light within |position| of the centroid, of this picture's pupil and
     of the same pupil without aberration; ``clear_energy``: of a perfect lens with nothing in its stop. Where the energy
     is too slow for a frame it is NaN, and ``pending`` asks for it. ``radii_um``: what holds half and 80 % of the light,
-    and the RMS distance of rays; ``method``: what described the pupil, or why there is no energy.
+    and the RMS distance of rays; ``method``: what described the pupil, or why there is no energy. ``highest``: of the
+    picture, in units of the unaberrated peak; ``rough``: whether sections too slow for a frame may follow its samples.
     """
 
     position_um: np.ndarray
@@ -49,6 +52,8 @@ class ProfileCurves:
     radii_um: tuple[float, float, float] = (np.nan, np.nan, np.nan)
     method: Message = NOTHING
     pending: MeasureRequest | None = None
+    highest: float = 0.0
+    rough: bool = False
 
 
 def profiles(live: Live) -> ProfileCurves:
@@ -56,21 +61,34 @@ def profiles(live: Live) -> ProfileCurves:
     psf = live.psf
     half = (psf.values.shape[-1] // 2) * psf.pixel_um
     position, airy, perfect = airy_curves(POINTS[live.quality], half, live.airy_radius_um)
-    lines = fine_lines(live, position) if live.quality == "settled" else None
-    along_x, along_y = lines or between_samples(psf, position)
     # That between the samples takes as long to find as the picture.
     highest = float(_samples(psf).max()) if live.quality == "preview" else float(psf.strehl or 0.0)
-    peak = max(float(along_x.max()), float(along_y.max()), highest) or 1.0
     none = np.full(position.size, np.nan)
     masked = not live.setup.lens.mask.clear
-    curves = ProfileCurves(position, along_x / peak, along_y / peak, airy, none, none if masked else perfect, perfect)
+    empty = ProfileCurves(position, none, none, airy, none, none if masked else perfect, perfect, highest=highest)
+    curves = with_sections(empty, between_samples(psf, position))
     if live.quality == "preview":  # some 10 ms, of a frame's 16
         return replace(curves, method=LATER)
     request = measure_request(live)
+    # No sum describes the density of rays, nor what rims clip.
+    curves = replace(curves, rough=psf.method != "geometric" and not live.state.optics.clip)
+    curves = curves if takes_long(live) else with_fine_sections(curves, request)
     try:
         return with_energy(curves, request) if energy_is_live(live, request) else replace(curves, pending=request)
     except P2SFError as error:  # the sections are there all the same
         return replace(curves, method=error.message)
+
+
+def with_sections(curves: ProfileCurves, lines: tuple[np.ndarray, np.ndarray]) -> ProfileCurves:
+    """Return the curves with sections in units of the unaberrated peak, over the highest that is known."""
+    peak = max(*(float(line.max()) for line in lines), curves.highest) or 1.0
+    return replace(curves, along_x=lines[0] / peak, along_y=lines[1] / peak)
+
+
+def with_fine_sections(curves: ProfileCurves, request: MeasureRequest) -> ProfileCurves:
+    """Return the curves with sections summed at their own points, where those of the picture are rough."""
+    lines = fine_lines(request, curves.position_um) if curves.rough else None
+    return replace(with_sections(curves, lines) if lines else curves, rough=False)
 
 
 def with_energy(curves: ProfileCurves, request: MeasureRequest) -> ProfileCurves:
@@ -87,8 +105,8 @@ def with_energy(curves: ProfileCurves, request: MeasureRequest) -> ProfileCurves
 
 
 def answer(curves: ProfileCurves, stopped: Callable[[], bool], tell: Callable[[float, object], None]) -> ProfileCurves:
-    """Return the curves with the energy that they lack, for a worker."""
-    return with_energy(curves, curves.pending) if curves.pending else curves
+    """Return the curves with the energy that they lack, and finer sections where these are rough, for a worker."""
+    return with_energy(with_fine_sections(curves, curves.pending), curves.pending) if curves.pending else curves
 
 
 def between_samples(psf: Psf, position: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -104,22 +122,20 @@ def _samples(psf: Psf) -> np.ndarray:
     return psf.values / (float(psf.values.max()) or 1.0) if units is None else units
 
 
-def fine_lines(live: Live, position: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
-    """Return |field|² along x and along y in units of the unaberrated peak; None where no sum describes the picture.
+def fine_lines(request: MeasureRequest, position: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
+    """Return |field|² along x and along y in units of the unaberrated peak.
 
-    That is the case where rays are lost, where the picture is ray density, and where a sum would take too long.
+    None where rays are lost, and where a sum would take too long.
     """
-    if live.psf.method == "geometric" or live.state.optics.clip:
-        return None
-    setup = live.setup
+    lens, source = request.lens, request.source
     try:
-        six = by_coefficients(live)
-        mask = mask_seen(setup.lens, setup.source)
-        found = as_fit(setup.coefficients, mask) if six else fit(setup.lens, setup.source)
-        waves = fitted_waves(found, counts_for(found.steepness, abs(float(position[0]))))
+        six = Coefficients(*map(np.asarray, request.six)) if request.six else None
+        found = as_fit(six, mask_seen(lens, source)) if six else fit(lens, source)
     except P2SFError:  # rays are lost: only the picture's own samples remain
         return None
-    if waves.fx.size > MOST_NODES:
+    counts = counts_for(found.steepness, abs(float(position[0])))
+    if prod(counts) / 2 > MOST_NODES:
         return None
+    waves = fitted_waves(found, counts)
     middle = np.zeros(1)
     return waves.intensity(position, middle)[0], waves.intensity(middle, position)[:, 0]
