@@ -10,6 +10,7 @@ from p2sf.camera import Camera
 from p2sf.cli.options import AS_IN_ITS_FILE, CameraFlags, Json, Output, check_output, check_whole
 from p2sf.cli.screen import print_json, print_table
 from p2sf.errors import ExportError, RequestError
+from p2sf.files.reasons import reason
 from p2sf.files.writing import write_beside, write_json
 from p2sf.lensfile.library import find_lens
 
@@ -199,5 +200,5 @@ def _make(folder: Path) -> None:
             "{parameter} is {path}, and that folder cannot be made ({reason}); choose another",
             parameter="output",
             path=str(folder),
-            reason=str(error.strerror),
+            reason=reason(error),
         ) from error

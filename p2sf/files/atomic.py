@@ -14,13 +14,15 @@ from typing import BinaryIO
 from zipfile import BadZipFile
 
 from p2sf.errors import FileWarning
+from p2sf.files.reasons import FileRefusedError
 from p2sf.messages import Message
 
 CUT = (
     "{path} had another name (a hard link), under which the old contents stay; copy the new file there if it is to "
     "follow"
 )
-NO_FILE = "it is a pipe or a device and not a file"
+NO_FILE = Message("it is a pipe or a device and not a file")
+PROTECTED = Message("the file is write-protected")
 # Errors for a damaged archive: numpy parses headers as Python, and zip and its compressors raise their own.
 DAMAGED = (
     BadZipFile,
@@ -79,9 +81,9 @@ def replaceable(path: str | os.PathLike) -> os.stat_result | None:
     if stat.S_ISDIR(found.st_mode):
         raise OSError(errno.EISDIR, os.strerror(errno.EISDIR), os.fspath(path))
     if not stat.S_ISREG(found.st_mode):
-        raise OSError(errno.EOPNOTSUPP, NO_FILE, os.fspath(path))
+        raise FileRefusedError(errno.EOPNOTSUPP, NO_FILE, os.fspath(path))
     if not os.access(path, os.W_OK):
-        raise OSError(errno.EACCES, "the file is write-protected", os.fspath(path))
+        raise FileRefusedError(errno.EACCES, PROTECTED, os.fspath(path))
     return found
 
 

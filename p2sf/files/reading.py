@@ -1,7 +1,7 @@
 """Files of strangers: what one may cost is checked by its kind, its size and what it declares, before it is paid.
 
-Every reader opens its files here. What is refused is an OSError with its reason in words, as for a missing file, or a
-ValueError where the content is wrong.
+Every reader opens its files here. What is refused is an OSError, as for a missing file, or a ValueError where the
+content is wrong; `reasons.reason` says why.
 """
 
 import errno
@@ -18,14 +18,18 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
-from p2sf.files.atomic import DAMAGED
+from p2sf.files.atomic import DAMAGED, NO_FILE
+from p2sf.files.reasons import ContentRefusedError, FileRefusedError, OversizedError
+from p2sf.messages import Message
 
 LARGEST = 200_000_000  # bytes read or unpacked at once: any machine has room for them, and reads them in a second
 PER_BYTE = 20  # bytes or samples that one byte of a large file may unpack to: photos have 2, charts 10
 EVER = 10  # times as much is unpacked from no file, however large it is
 LONGEST_TEXT = 8_000_000  # letters of JSON; as Python's own objects they take up to thirty times the room
 MOST_MEMBERS = 2_000  # of an archive; a set of PSFs has a few arrays
-SAMPLES = LARGEST // 4  # in any picture, whose light is held in four bytes
+MOST_SAMPLES = 320_000_000  # of any picture: 105 megapixels in colour, as light in four bytes 1.3 GB
+FEW_SAMPLES = 50_000_000  # that a file of any size may hold: 16 megapixels of one colour, read in a second
+SAMPLES_PER_BYTE = 50  # of a larger picture: 0.2 to 2 in a PNG, 20 in a HEIF, 50 in a JPEG of sky, 1000 where all is 0
 LONGEST_SIDE = 65_535  # pixels, as in JPEG
 NPY = b"\x93NUMPY\x01\x00"  # first of an array of numbers: the head of other versions may have any length
 MOST_DOTS = 500  # in a line, between parts of a key: a hundred times more than any file needs
@@ -35,15 +39,11 @@ SILENT = NullHandler()  # tifffile logs every defect of a file; here it is one e
 PathName = str | PathLike[str]
 
 
-class OversizedError(ValueError):
-    """A file that declares more than can be unpacked; it may be valid."""
-
-
 def open_file(path: PathName) -> BinaryIO:
     """Open a file to be read; OSError as `open`, and for what has no end: a pipe, a device."""
     mode = os.stat(path).st_mode
     if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):  # of a folder `open` says so itself
-        raise OSError(errno.EINVAL, "it is a pipe or a device and not a file", str(path))
+        raise FileRefusedError(errno.EINVAL, NO_FILE, str(path))
     return open(path, "rb")
 
 
@@ -52,7 +52,8 @@ def read_bytes(path: PathName, most: int = LARGEST) -> bytes:
     with open_file(path) as stream:
         if size_of(stream) <= most:
             return stream.read()
-    raise OSError(errno.EFBIG, f"it has more than {most / 1e6:g} million bytes", str(path))
+    more = Message("it has more than {count:g} million bytes", count=most / 1e6)
+    raise FileRefusedError(errno.EFBIG, more, str(path))
 
 
 def read_text(path: PathName, most: int = LONGEST_TEXT) -> str:
@@ -63,11 +64,11 @@ def read_text(path: PathName, most: int = LONGEST_TEXT) -> str:
 def parse_json(text: str) -> Any:
     """Return what a JSON text holds; ValueError where it is another text, too long, or nested too deep."""
     if len(text) > LONGEST_TEXT:
-        raise OversizedError(f"{len(text):,} letters of JSON, at most {LONGEST_TEXT:,}")
+        raise OversizedError(Message("{count} letters of JSON, at most {most}", count=len(text), most=LONGEST_TEXT))
     try:
         return json.loads(text)
     except RecursionError as error:
-        raise ValueError("nested too deep") from error
+        raise ContentRefusedError(Message("lists or tables are nested too deep")) from error
 
 
 def toml_table(text: str) -> dict[str, Any]:
@@ -77,15 +78,15 @@ def toml_table(text: str) -> dict[str, Any]:
     """
     line = next((n for n, row in enumerate(text.split("\n"), 1) if sum(1 for _ in DOT.finditer(row)) > MOST_DOTS), 0)
     if line:
-        raise ValueError(f"line {line} has a key of more than {MOST_DOTS} parts")
+        raise ContentRefusedError(Message("line {line} has a key of more than {most} parts", line=line, most=MOST_DOTS))
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError:
         raise
     except RecursionError as error:
-        raise ValueError("lists or tables are nested too deep") from error
+        raise ContentRefusedError(Message("lists or tables are nested too deep")) from error
     except ValueError as error:
-        raise ValueError("a number is too long") from error
+        raise ContentRefusedError(Message("a number is too long")) from error
 
 
 def size_of(stream: BinaryIO) -> int:
@@ -98,24 +99,36 @@ def size_of(stream: BinaryIO) -> int:
 
 def check_unpacked(declared: int, size: int) -> None:
     """Raise OversizedError for more bytes to unpack than a file of ``size`` bytes can plausibly hold."""
-    most = _most(LARGEST, size)
+    most = min(max(LARGEST, PER_BYTE * size), EVER * LARGEST)
     if declared > most:
-        raise OversizedError(f"{declared / 1e6:.0f} MB in {size} bytes, at most {most / 1e6:.0f} MB")
+        raise OversizedError(
+            Message(
+                "{declared:.0f} MB in {size} bytes, at most {most:.0f} MB",
+                declared=declared / 1e6,
+                size=size,
+                most=most / 1e6,
+            )
+        )
 
 
-def check_samples(shape: tuple[int, ...], size: int) -> None:
-    """Raise OversizedError for more samples than ``size`` bytes can plausibly hold, ValueError for none."""
-    claim = " × ".join(map(str, shape))
-    most = _most(SAMPLES, size)
-    reason = f"{claim} samples in {size} bytes, at most {LONGEST_SIDE} on a side and {most:,} in all"
-    if not prod(shape):
-        raise ValueError(reason)
-    if max(shape) > LONGEST_SIDE or prod(shape) > most:
-        raise OversizedError(reason)
+def check_samples(shape: tuple[int, ...], size: int, sample_bytes: int = 1) -> None:
+    """Raise OversizedError for a picture of more samples than is read, or than ``size`` bytes can plausibly hold.
 
-
-def _most(usual: int, size: int) -> int:
-    return min(max(usual, PER_BYTE * size), EVER * usual)
+    The one limit of all readers of pictures, asked before anything is unpacked; ContentRefusedError for no samples.
+    """
+    check_unpacked(prod(shape) * sample_bytes, size)
+    most = min(max(FEW_SAMPLES, SAMPLES_PER_BYTE * size), MOST_SAMPLES)
+    sort = OversizedError if prod(shape) else ContentRefusedError
+    if not 0 < prod(shape) <= most or max(shape, default=1) > LONGEST_SIDE:
+        raise sort(
+            Message(
+                "{shape} samples in {size} bytes, at most {side} on a side and {most:.0f} million in all",
+                shape=" × ".join(map(str, shape)),
+                size=size,
+                side=LONGEST_SIDE,
+                most=most / 1e6,
+            )
+        )
 
 
 def zip_archive(stream: BinaryIO) -> zipfile.ZipFile:
@@ -123,38 +136,44 @@ def zip_archive(stream: BinaryIO) -> zipfile.ZipFile:
     archive = zipfile.ZipFile(stream)
     members = archive.infolist()
     if len(members) > MOST_MEMBERS:
-        raise OversizedError(f"{len(members)} members, at most {MOST_MEMBERS}")
+        raise OversizedError(Message("{count} members, at most {most}", count=len(members), most=MOST_MEMBERS))
     check_unpacked(sum(member.file_size for member in members), size_of(stream))
     return archive
 
 
 def read_arrays(file: PathName | BinaryIO) -> dict[str, np.ndarray]:
-    """Return the arrays of an .npz file or stream; ValueError for a damaged or other file, OSError as `open_file`."""
+    """Return the arrays of an .npz file, or of a stream, which stays open.
+
+    Raises ValueError for a damaged or other file, OSError as `open_file`.
+    """
+    if isinstance(file, str | PathLike):
+        with open_file(file) as stream:
+            return read_arrays(stream)
     try:
-        with open_file(file) if isinstance(file, str | PathLike) else file as stream:
-            zip_archive(stream)
-            stream.seek(0)
-            with np.load(stream, allow_pickle=False) as archive:
-                return dict(archive)
+        zip_archive(file)
+        file.seek(0)
+        with np.load(file, allow_pickle=False) as archive:
+            return dict(archive)
     except DAMAGED as error:
-        raise ValueError(f"no archive of arrays: {error}") from error
+        raise ContentRefusedError(Message("no archive of arrays: {error}", error=str(error))) from error
 
 
 def read_array(path: PathName) -> np.ndarray:
     """Return the array of an .npy file, which stays in it; ValueError for another file, OSError as `open_file`."""
     with open_file(path) as stream:
         if stream.read(len(NPY)) != NPY:
-            raise ValueError("no array of numbers")
+            raise ContentRefusedError(Message("no array of numbers"))
     found: np.ndarray = np.load(path, mmap_mode="r", allow_pickle=False)
-    check_unpacked(found.nbytes, found.nbytes)
+    check_samples(found.shape, found.nbytes, found.itemsize)
     return found
 
 
-def first_page(path: PathName) -> tuple[np.ndarray, str]:
+def first_page(path: PathName, begins: str = "") -> tuple[np.ndarray, str]:
     """Return the samples of the first page of a TIFF and its description.
 
-    Raises ValueError for a file that is not a TIFF and for a page with more strips and tiles than the file has bytes;
-    OSError as `open_file`, and tifffile's own errors for a damaged file.
+    Raises ValueError for a file that is not a TIFF, for a page with more strips and tiles than the file has bytes, and,
+    before anything is unpacked, for a description that does not begin as wanted; OSError as `open_file`, and tifffile's
+    own errors for a damaged file.
     """
     import tifffile
 
@@ -162,9 +181,11 @@ def first_page(path: PathName) -> tuple[np.ndarray, str]:
     try:
         with open_file(path) as stream, tifffile.TiffFile(stream) as file:
             page, size = file.pages.first, file.filehandle.size
-            check_samples(page.shape, size)
+            check_samples(page.shape, size, page.dtype.itemsize if page.dtype else 1)
             if prod(page.chunked) > size:
-                raise ValueError(f"{prod(page.chunked)} parts in {size} bytes")
+                raise ContentRefusedError(Message("{count} parts in {size} bytes", count=prod(page.chunked), size=size))
+            if not page.description.startswith(begins):
+                raise ContentRefusedError(Message("its description is of another program"))
             return page.asarray(), page.description
     except tifffile.TiffFileError as error:
         raise ValueError(str(error)) from error

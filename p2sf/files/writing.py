@@ -13,6 +13,7 @@ import numpy as np
 
 from p2sf.errors import ExportError
 from p2sf.files.atomic import replaceable, write_whole
+from p2sf.files.reasons import reason
 from p2sf.messages import Message
 
 LARGEST_READ = 64_000_000  # bytes of a file that are searched for a mark: some hundred pages as PDF
@@ -103,9 +104,10 @@ def check_ending(name: str, path: str | PathLike[str], ending: str, wanted: Mess
 
 
 def _unwritable(path: str | PathLike, error: OSError) -> ExportError:
-    reason = (error.strerror or str(error)).rstrip(".").lower()
     remedy = REMEDIES.get(error.errno or 0, ANOTHER_PLACE)
-    return ExportError("{path} cannot be written, {reason}; {remedy}", path=str(path), reason=reason, remedy=remedy)
+    return ExportError(
+        "{path} cannot be written, {reason}; {remedy}", path=str(path), reason=reason(error), remedy=remedy
+    )
 
 
 def plain(value: object) -> Any:

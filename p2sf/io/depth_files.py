@@ -13,7 +13,7 @@ import numpy as np
 from p2sf.arguments import check_fields, first_place
 from p2sf.conventions import FARTHEST_MM, depth_of, vergence
 from p2sf.errors import RequestError
-from p2sf.io.photo_files import HEIF, heif_depth_image, read_samples
+from p2sf.io.photo_files import HEIF, by_rows, heif_depth_image, read_samples
 from p2sf.messages import Alternatives
 from p2sf.parameters import check_reach
 
@@ -90,34 +90,44 @@ def _scaled(raw: np.ndarray, scale: DepthScale, path: str | os.PathLike[str]) ->
         raise RequestError(
             "{path} has the shape ({shape}); a map of depths has one grey channel", path=str(path), shape=raw.shape
         )
-    values = raw.astype(np.float32)
-    wrong = ~(values >= 0)
+    _check_depths(raw, path)
+    if scale.meaning in UNITS:
+        return _in_mm(raw.astype(np.float32), np.float32(UNITS[scale.meaning]), path)
+    full = np.float32(np.iinfo(raw.dtype).max if raw.dtype.kind == "u" else 1)
+    most = float(raw.max() / full)
+    if most > 1:
+        raise RequestError(
+            "{path} holds numbers up to {most:g}, between near and far they reach from 0 to 1; choose mm or m",
+            path=str(path),
+            most=most,
+        )
+    slope, start = (1, 0) if scale.meaning == "near_white" else (-1, 1)
+    return by_rows(
+        lambda rows: _between(start + slope * (rows.astype(np.float32) / full), scale.near_mm, scale.far_mm), raw
+    )
+
+
+def _check_depths(raw: np.ndarray, path: str | os.PathLike[str]) -> None:
+    """Raise RequestError where numbers of a map are negative or NaN."""
+    if raw.dtype.kind == "u":
+        return
+    wrong = ~(raw >= 0)
     if wrong.any():
         raise RequestError(
             "{path} holds depths that are negative or no numbers, {count} of them, the first {value:g} at row {row}, "
             "column {column} (from 0); correct them",
             path=str(path),
-            value=float(values[wrong][0]),
+            value=float(raw[wrong][0]),
             **first_place(wrong),
         )
-    if scale.meaning in UNITS:
-        return _in_mm(values * np.float32(UNITS[scale.meaning]), path)
-    if raw.dtype.kind == "u":
-        values /= np.float32(np.iinfo(raw.dtype).max)
-    if values.max() > 1:
-        raise RequestError(
-            "{path} holds numbers up to {most:g}, between near and far they reach from 0 to 1; choose mm or m",
-            path=str(path),
-            most=float(values.max()),
-        )
-    return _between(values if scale.meaning == "near_white" else 1 - values, scale.near_mm, scale.far_mm)
 
 
-def _in_mm(depths: np.ndarray, path: str | os.PathLike[str]) -> np.ndarray:
-    """Return depths with infinity in place of 0 and of more than FARTHEST_MM; RequestError where all of it is 0."""
+def _in_mm(depths: np.ndarray, unit_mm: np.float32, path: str | os.PathLike[str]) -> np.ndarray:
+    """Return depths in mm, infinity in place of 0 and of more than FARTHEST_MM; RequestError where all of it is 0."""
     if not depths.any():
         raise RequestError("{path} holds no depth: all of it is 0; choose another map", path=str(path))
-    found: np.ndarray = np.where((depths > 0) & (depths <= FARTHEST_MM), depths, np.inf).astype(np.float32)
+    found: np.ndarray = depths * unit_mm
+    found[(found == 0) | (found > FARTHEST_MM)] = np.inf
     return found
 
 
@@ -160,6 +170,6 @@ def heif_depths(raw: np.ndarray, stated: dict[str, Any], path: str | os.PathLike
             path=str(path),
         )
     if kind == DEPTH:
-        return _in_mm(np.float32(MM_PER_M) * (low + nearness * (high - low)), path)
+        return _in_mm(low + nearness * np.float32(high - low), np.float32(MM_PER_M), path)
     near, far = (low, high) if kind == INVERSE_DEPTH else (1 / high, depth_of(low))
     return _between(nearness, MM_PER_M * near, MM_PER_M * float(far))

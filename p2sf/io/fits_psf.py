@@ -5,14 +5,13 @@ import json
 import os
 import warnings
 from itertools import islice
-from math import prod
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from p2sf.errors import ExportError
-from p2sf.files.reading import LONGEST_TEXT, check_unpacked, open_file, parse_json, size_of
+from p2sf.files.reading import LONGEST_TEXT, check_samples, open_file, parse_json, size_of
 from p2sf.files.writing import write_beside
 from p2sf.io.record import psf_of_file, with_facts
 from p2sf.psf.result import Psf
@@ -73,7 +72,7 @@ def first_picture(path: str | os.PathLike[str]) -> tuple[np.ndarray, Any]:
         with fits.open(stream, memmap=False) as file:
             for unit in islice(file, MOST_UNITS):
                 if unit.is_image and len(unit.shape) >= 2:
-                    check_unpacked(prod(unit.shape) * abs(unit.header["BITPIX"]) // 8, size)
+                    check_samples(unit.shape, size, abs(unit.header["BITPIX"]) // 8)
                     return unit.data, unit.header
     raise ValueError("no picture in it")
 

@@ -9,22 +9,28 @@ from functools import reduce
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from types import ModuleType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from p2sf.arguments import first_place
 from p2sf.errors import ExportError, RequestError
 from p2sf.files.atomic import DAMAGED
-from p2sf.files.reading import OversizedError, check_samples, check_unpacked, first_page, open_file, size_of
+from p2sf.files.picture_parts import open_picture
+from p2sf.files.reading import check_samples, first_page, open_file, size_of
+from p2sf.files.reasons import OversizedError, reason
 from p2sf.files.writing import write_beside
-from p2sf.io.png16 import is_deep, read_deep, write_deep
+from p2sf.io.png16 import deep_colours, read_deep, write_deep
 from p2sf.io.png_text import with_text
 from p2sf.io.transfer import check_encoding, linear_from_srgb, srgb_from_linear
 from p2sf.messages import Alternatives, Message
 
+if TYPE_CHECKING:
+    from PIL.Image import Image
+
 EXR = ".exr"
 WRITABLE = (".png", ".tif", ".tiff", EXR)
+ROWS = 64  # of a picture at once
 HEAD = 32  # bytes that tell the kinds apart
 EXR_MARK = b"v/1\x01"  # first of any OpenEXR file
 DEPTH_CHANNELS = "Y", "Z"  # of grey pictures and of depths, the names that renderers use
@@ -66,7 +72,11 @@ def read_photo(path: str | os.PathLike[str], encoding: str | None = None) -> Pho
     linear, in which light above white is kept. HEIF needs pillow-heif, OpenEXR its own library. Raises RequestError for
     a file of another kind, or without 1 or 3 channels.
     """
-    raw = read_samples(Path(path))
+    return photo_of(read_samples(Path(path)), path, encoding)
+
+
+def photo_of(raw: np.ndarray, path: str | os.PathLike[str], encoding: str | None = None) -> Photo:
+    """Return the picture that the samples of a file are, see `read_photo`."""
     depth = {"u1": "8", "u2": "16"}.get(raw.dtype.str[1:], "float")
     encoding = encoding or ("linear" if depth == "float" else "srgb")
     check_encoding(encoding)
@@ -82,10 +92,19 @@ def read_photo(path: str | os.PathLike[str], encoding: str | None = None) -> Pho
                 path=str(path),
                 **first_place(~known),
             )
-        values = values.astype(np.float32)
-        return Photo(linear_from_srgb(values) if encoding == "srgb" else values, encoding, depth, transparent)
+        linear = by_rows(linear_from_srgb, values) if encoding == "srgb" else values.astype(np.float32, copy=False)
+        return Photo(linear, encoding, depth, transparent)
     codes = np.arange(white + 1, dtype=np.float32) / np.float32(white)
-    return Photo((linear_from_srgb(codes) if encoding == "srgb" else codes)[values], encoding, depth, transparent)
+    light = linear_from_srgb(codes) if encoding == "srgb" else codes
+    return Photo(by_rows(light.__getitem__, values), encoding, depth, transparent)
+
+
+def by_rows(change: Callable[[np.ndarray], np.ndarray], values: np.ndarray) -> np.ndarray:
+    """Return ``change(values)`` in float32, made of a few rows at a time, so that what it needs meanwhile is small."""
+    found = np.empty(values.shape, np.float32)
+    for start in range(0, len(values), ROWS):
+        found[start : start + ROWS] = change(values[start : start + ROWS])
+    return found
 
 
 def write_photo(
@@ -206,14 +225,17 @@ def turned_as(photo: str | os.PathLike[str], values: np.ndarray) -> np.ndarray:
     tall, wide = values.shape
     if (rows < columns) == (tall < wide) or rows == columns or tall == wide:
         return values
-    turn = TURNS.get(_orientation(photo))
-    return turn(values) if turn else values
+    found = _orientation(photo)
+    return TURNS[found](values) if found in SIDEWAYS else values
 
 
-TURNS: dict[int, Callable[[np.ndarray], np.ndarray]] = {  # of SIDEWAYS
-    5: np.transpose,
+TURNS: dict[int, Callable[[np.ndarray], np.ndarray]] = {  # rows and columns, by the tag of Exif
+    2: lambda values: values[:, ::-1],
+    3: lambda values: values[::-1, ::-1],
+    4: lambda values: values[::-1],
+    5: lambda values: values.swapaxes(0, 1),
     6: lambda values: np.rot90(values, -1),
-    7: lambda values: values[::-1, ::-1].T,
+    7: lambda values: values[::-1, ::-1].swapaxes(0, 1),
     8: np.rot90,
 }
 
@@ -238,18 +260,16 @@ def read_samples(path: Path) -> np.ndarray:
         raise RequestError(
             "{path} cannot be read, {reason}; give the path of a PNG, TIFF, OpenEXR, JPEG or HEIF",
             path=str(path),
-            reason=str(error.strerror),
+            reason=reason(error),
         ) from error
     if head[:4] in (b"II*\x00", b"MM\x00*", b"II+\x00", b"MM\x00+"):
         return _from_tiff(path)
-    if is_deep(head) and head[25]:  # Pillow reads grey ones, in a hundredth of the time
-        return read_deep(path)
     if head[:4] == EXR_MARK:
         return _from_exr(path, size)
     if head[4:8] == b"ftyp":
         _let_pillow_open_heif(path)
-        return _by_pillow(path, size, ("HEIF",))
-    return _by_pillow(path, size, ("JPEG",) if head[:3] == b"\xff\xd8\xff" else ("PNG",))
+        return _by_pillow(path, head, "HEIF")
+    return _by_pillow(path, head, "JPEG" if head[:3] == b"\xff\xd8\xff" else "PNG")
 
 
 def pillow_heif(path: str | os.PathLike[str]) -> Any:
@@ -276,7 +296,7 @@ def heif_depth_image(path: str | os.PathLike[str]) -> tuple[np.ndarray, dict[str
         return (np.asarray(images[0]), images[0].info.get("metadata", {})) if images else None
     except (OSError, ValueError, *DAMAGED) as error:
         raise RequestError(
-            "{path} is a HEIF that cannot be read ({why}); save it again", path=str(path), why=str(error)
+            "{path} is a HEIF that cannot be read ({why}); save it again", path=str(path), why=reason(error)
         ) from error
 
 
@@ -306,12 +326,15 @@ def _from_exr(path: Path, size: int) -> np.ndarray:
         with library.File(str(path), header_only=True) as head:
             first, last = (np.asarray(end, int) for end in head.header()["dataWindow"])
             count = len(head.header()["channels"])
-        check_samples((*(last - first + 1)[::-1].tolist(), count), size)
+        check_samples((*(last - first + 1)[::-1].tolist(), count), size, 4)
         with library.File(str(path), separate_channels=True) as file:
             planes = {name: channel.pixels for name, channel in file.channels().items()}
     except (OSError, RuntimeError, ValueError, *DAMAGED) as error:
         raise RequestError(
-            "{path} is a damaged {kind} ({why}); save the picture again", path=str(path), kind="OpenEXR", why=str(error)
+            "{path} is a damaged {kind} ({why}); save the picture again",
+            path=str(path),
+            kind="OpenEXR",
+            why=reason(error),
         ) from error
     if all(name in planes for name in "RGB"):
         return np.stack([planes[name] for name in "RGBA" if name in planes], axis=-1)
@@ -341,7 +364,7 @@ def _exr(path: str | os.PathLike[str], stored: np.ndarray, texts: Mapping[str, s
             "{path} cannot be written, there is no room for it in the folder of temporary files ({reason}); free some "
             "space there, or name another folder in TMPDIR",
             path=str(path),
-            reason=str(getattr(error, "strerror", None) or error).rstrip("."),
+            reason=reason(error),
         ) from error
 
 
@@ -350,38 +373,46 @@ def _from_tiff(path: Path) -> np.ndarray:
         return np.asarray(first_page(path)[0])
     except (OSError, ValueError, *DAMAGED) as error:
         raise RequestError(
-            "{path} is a TIFF that cannot be read ({why}); save it again, uncompressed", path=str(path), why=str(error)
+            "{path} is a TIFF that cannot be read ({why}); save it again, uncompressed",
+            path=str(path),
+            why=reason(error),
         ) from error
 
 
-def _by_pillow(path: Path, size: int, formats: tuple[str]) -> np.ndarray:
-    """Return the 8-bit samples of a PNG, JPEG or HEIF, turned upright."""
-    from PIL import Image, ImageOps, UnidentifiedImageError
+def _by_pillow(path: Path, head: bytes, kind: str) -> np.ndarray:
+    """Return the samples of a PNG, JPEG or HEIF, of 8 or 16 bits, turned upright."""
+    from PIL import UnidentifiedImageError
 
+    deep = deep_colours(head)
     try:
-        check_unpacked(size, 0)  # in a file without an end Pillow looks for one
-        with Image.open(path, formats=formats) as picture:
-            check_samples((picture.height, picture.width, len(picture.getbands())), size)
-            if picture.mode.startswith("I;16"):
-                return np.asarray(picture)
-            grey = picture.mode in ("1", "L", "LA")
-            mode = ("L" if grey else "RGB") + "A" * picture.has_transparency_data
-            return np.asarray(ImageOps.exif_transpose(picture).convert(mode))
+        with open_picture(path, (kind,)) as picture:
+            check_samples((picture.height, picture.width, len(picture.getbands())), os.path.getsize(path))
+            values = _samples(picture) if deep is None else read_deep(picture, deep)
+            turn = TURNS.get(picture.getexif().get(ORIENTATION, 1))  # last, since it may stand behind the picture
+        return turn(values) if turn else values
     except UnidentifiedImageError as error:
         raise RequestError(
             "{path} is not a PNG, TIFF, OpenEXR, JPEG or HEIF that can be read; convert it to one", path=str(path)
         ) from error
-    except (OversizedError, Image.DecompressionBombError) as error:
+    except OversizedError as error:
         raise RequestError(
-            "{path} is too large a {kind} ({why}); save it smaller", path=str(path), kind=formats[0], why=str(error)
+            "{path} is too large a {kind} ({why}); save it smaller", path=str(path), kind=kind, why=reason(error)
         ) from error
     except (OSError, ValueError, *DAMAGED) as error:
         raise RequestError(
             "{path} is a damaged {kind} ({why}); save the picture again",
             path=str(path),
-            kind=formats[0],
-            why=str(error),
+            kind=kind,
+            why=reason(error),
         ) from error
+
+
+def _samples(picture: "Image") -> np.ndarray:
+    """Return the samples of an open picture: grey or colours, with alpha where it has transparency, or 16 bits."""
+    if picture.mode.startswith("I"):  # "I" before Pillow 10.3, "I;16" since
+        return np.asarray(picture).astype(np.uint16, copy=False)
+    mode = ("L" if picture.mode in ("1", "L", "LA") else "RGB") + "A" * picture.has_transparency_data
+    return np.asarray(picture if picture.mode == mode else picture.convert(mode))
 
 
 def _channels(raw: np.ndarray, path: str | os.PathLike[str]) -> tuple[np.ndarray, np.ndarray]:

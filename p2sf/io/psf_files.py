@@ -10,6 +10,7 @@ import numpy as np
 from p2sf.errors import ExportError
 from p2sf.files.atomic import DAMAGED
 from p2sf.files.reading import LONGEST_TEXT, check_unpacked, first_page, open_file, parse_json, read_arrays, size_of
+from p2sf.files.reasons import reason
 from p2sf.files.writing import write_beside
 from p2sf.io.record import caption, psf_of_file, with_facts
 from p2sf.psf.record import CONVENTIONS
@@ -65,7 +66,7 @@ def read_psf(path: str | os.PathLike[str]) -> tuple[Psf, dict]:
         raise ExportError(
             "{path} cannot be read, {reason}; check the name",
             path=str(path),
-            reason=(error.strerror or str(error)).lower(),
+            reason=reason(error),
         ) from error
     except (ValueError, *DAMAGED) as error:
         raise ExportError(
@@ -120,7 +121,7 @@ def _read_npz(path: str | os.PathLike[str]) -> tuple[np.ndarray, Any]:
 
 
 def _read_tiff(path: str | os.PathLike[str]) -> tuple[np.ndarray, Any]:
-    values, text = first_page(path)
+    values, text = first_page(path, "{")
     return values, parse_json(text)
 
 

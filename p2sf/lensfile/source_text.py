@@ -11,6 +11,7 @@ from p2sf.conventions import FloatOrArray
 from p2sf.errors import LensFileError
 from p2sf.files.atomic import write_whole
 from p2sf.files.reading import open_file
+from p2sf.files.reasons import reason
 from p2sf.lensfile.archives import LARGEST_BYTES, check_size, is_archive, unpack
 from p2sf.messages import Message
 
@@ -105,7 +106,7 @@ def read_bytes(path: str | os.PathLike) -> bytes:
         raise LensFileError(
             "the file cannot be read ({reason}); check its path and permissions",
             path,
-            reason=getattr(failure, "strerror", None) or str(failure),
+            reason=reason(failure),
         ) from None
     check_size(len(data), str(path))
     return data
@@ -182,7 +183,7 @@ def read_text(path: str | os.PathLike) -> str:
         raise LensFileError(
             "the file cannot be read ({reason}); check its path and permissions",
             path,
-            reason=getattr(error, "strerror", None) or str(error),
+            reason=reason(error),
         ) from None
 
 
@@ -210,5 +211,5 @@ def write_text(text: str, path: str | os.PathLike) -> None:
         write_whole(path, lambda handle: handle.write(text.encode("utf-8")))
     except OSError as error:
         raise LensFileError(
-            "the file cannot be written ({reason}); choose another place", path, reason=error.strerror
+            "the file cannot be written ({reason}); choose another place", path, reason=reason(error)
         ) from None

@@ -178,11 +178,10 @@ def calibrate(values: np.ndarray, dark: np.ndarray | None = None, flat: np.ndarr
                 shape=str(other.shape),
                 wanted=str(values.shape),
             )
-    zero = np.zeros_like(values, float) if dark is None else dark.astype(float)
-    light: np.ndarray = values - zero
+    light = values if dark is None else values - dark
     if flat is None:
         return light
-    gain = flat - zero
+    gain = flat if dark is None else flat - dark
     mean = float(gain[np.isfinite(gain)].mean())
     if not mean > 0:
         raise RequestError("the flat field is not brighter than the dark field; expose it longer")

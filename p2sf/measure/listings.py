@@ -8,6 +8,7 @@ import numpy as np
 
 from p2sf.errors import RequestError
 from p2sf.files.reading import read_bytes
+from p2sf.files.reasons import reason
 
 NUMBER = r"[-+]?\d++(?:\.\d*+)?(?:[Ee][-+]?\d++)?"  # which gives back no digit, so that a long one costs no time
 UNITS_UM = {"µm": 1.0, "um": 1.0, "microns": 1.0, "μm": 1.0, "mm": 1000.0, "nm": 1e-3}
@@ -53,7 +54,7 @@ def read_listing(path: str | os.PathLike[str]) -> Listing:
         data = read_bytes(path)
     except OSError as error:
         raise RequestError(
-            "{path} cannot be read, {reason}; check the name", path=str(path), reason=str(error.strerror).lower()
+            "{path} cannot be read, {reason}; check the name", path=str(path), reason=reason(error)
         ) from error
     return listing_of(_decode(data), str(path))
 

@@ -9,9 +9,10 @@ import numpy as np
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import ExportError, RequestError
 from p2sf.files.atomic import DAMAGED
-from p2sf.files.reading import OversizedError, check_samples, read_array, read_arrays
+from p2sf.files.reading import check_samples, read_array, read_arrays
+from p2sf.files.reasons import ContentRefusedError, OversizedError, reason
 from p2sf.io.fits_psf import first_picture, read_psf_fits
-from p2sf.io.photo_files import READABLE, read_photo
+from p2sf.io.photo_files import READABLE, photo_of, read_samples
 from p2sf.io.psf_files import read_psf
 from p2sf.measure.frame import Frame, FrameGeometry, Noise, calibrate
 from p2sf.measure.listings import read_listing
@@ -125,10 +126,13 @@ def _own_psf(path: str | os.PathLike[str], ending: str) -> Counts | None:
 
 def _from_photo(path: str | os.PathLike[str], channel: str, encoding: str | None) -> Counts:
     """Return the counts of a PNG, TIFF, JPEG or HEIF file: its numbers, or the light they encode."""
-    photo, read_as = read_photo(path, encoding or "linear"), encoding or "linear"
+    raw = read_samples(Path(path))
+    _check_room(tuple(sorted(raw.shape)[-2:]), path)
+    guessed = encoding is None and raw.dtype == np.uint8
+    read_as = encoding or ("srgb" if guessed else "linear")
+    photo = photo_of(raw, path, read_as)
     notes: tuple[Message, ...] = ()
-    if encoding is None and photo.depth == "8":
-        photo, read_as = read_photo(path, "srgb"), "srgb"
+    if guessed:
         notes = (
             Message(
                 "{path}: numbers of 8 bits are taken for sRGB and made linear; if they are counts, {parameter} linear "
@@ -139,7 +143,8 @@ def _from_photo(path: str | os.PathLike[str], channel: str, encoding: str | None
         )
     full = FULL.get(photo.depth, np.inf)
     scale = full if np.isfinite(full) else 1.0
-    values = _plane(photo.values.astype(float) * scale, path, channel)
+    values = _plane(photo.values, path, channel)
+    values *= scale
     return Counts(values, full=full, encoding=read_as if np.isfinite(full) else "", notes=notes)
 
 
@@ -183,11 +188,18 @@ def _plane(values: np.ndarray, path: str | os.PathLike[str], channel: str) -> np
             path=str(path),
             shape=str(values.shape),
         )
+    _check_room(plane.shape, path)
+    return np.asarray(plane, float)
+
+
+def _check_room(shape: tuple[int, ...], path: str | os.PathLike[str]) -> None:
+    """Raise RequestError where counts would take more room than a file of this size may ask for."""
     try:
-        check_samples(plane.shape, plane.nbytes)
+        check_samples(shape, os.path.getsize(path), np.dtype(float).itemsize)
     except OversizedError as error:
-        raise RequestError("{path} is too large: {reason}; cut it", path=str(path), reason=str(error)) from error
-    return plane.astype(float)
+        raise RequestError("{path} is too large: {reason}; cut it", path=str(path), reason=reason(error)) from error
+    except ContentRefusedError as error:
+        raise _unreadable(path) from error
 
 
 def _unreadable(path: str | os.PathLike[str]) -> RequestError:

@@ -31,6 +31,17 @@ EDGE_HARMONICS = 0.5  # phase slope in waves equivalent to an amplitude slope of
 PROBE = 65  # points across the pupil at which slopes are evaluated
 
 
+def check_map_shape(shape: tuple[int, ...]) -> None:
+    """Raise RequestError unless an array of this shape can be a map of the pupil."""
+    if len(shape) != 2 or shape[0] != shape[1] or not FEWEST_CELLS <= shape[0] <= MOST_CELLS:
+        raise RequestError(
+            "a map of the pupil has the shape {shape}; give a square of {low} to {high} cells a side",
+            shape=str(shape),
+            low=FEWEST_CELLS,
+            high=MOST_CELLS,
+        )
+
+
 class PupilMap:
     """A phase or an amplitude over the stop as samples, with a cubic spline through them (Dierckx 1993, ch. 5).
 
@@ -40,13 +51,7 @@ class PupilMap:
 
     def __init__(self, values: ArrayLike):
         table = real_array("values", values)
-        if table.ndim != 2 or table.shape[0] != table.shape[1] or not FEWEST_CELLS <= len(table) <= MOST_CELLS:
-            raise RequestError(
-                "a map of the pupil has the shape {shape}; give a square of {low} to {high} cells a side",
-                shape=str(table.shape),
-                low=FEWEST_CELLS,
-                high=MOST_CELLS,
-            )
+        check_map_shape(table.shape)
         if not np.isfinite(table).all():
             raise RequestError("a map of the pupil has cells that are not finite; give every cell a finite number")
         self.values = write_protect(table)

@@ -8,6 +8,7 @@ from typing import Any
 
 from p2sf.errors import RequestError
 from p2sf.files.reading import read_text, toml_table
+from p2sf.files.reasons import reason
 from p2sf.lens.positions import PARAMETER
 from p2sf.messages import Message
 from p2sf.scene.filters import filter_channels
@@ -43,11 +44,11 @@ def read_scene(path: str | os.PathLike[str], usual_mm: float = inf) -> Scene:
         table = toml_table(read_text(path))
     except OSError as error:
         raise RequestError(
-            "{path} cannot be read, {reason}; give the path of a scene file", path=str(path), reason=str(error.strerror)
+            "{path} cannot be read, {reason}; give the path of a scene file", path=str(path), reason=reason(error)
         ) from error
     except ValueError as error:
         raise RequestError(
-            "{path} is not valid TOML: {reason}; correct it", path=str(path), reason=str(error)
+            "{path} is not valid TOML: {reason}; correct it", path=str(path), reason=reason(error)
         ) from error
     try:
         return scene_from(table, Path(path), usual_mm)

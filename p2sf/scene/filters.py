@@ -11,6 +11,7 @@ from p2sf.colour.spectrum import NM, relative_power, spectrum_of
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import RequestError
 from p2sf.files.reading import read_text
+from p2sf.files.reasons import reason
 from p2sf.scene.scene import Channel
 from p2sf.scene.spectrum import reduce_spectrum
 
@@ -52,7 +53,7 @@ def _table(path: Path) -> tuple[list[str], np.ndarray]:
         rows = np.array([[float(cell) for cell in row] for row in body])
     except OSError as error:
         raise RequestError(
-            "{path} cannot be read, {reason}; give the path of a CSV file", path=str(path), reason=str(error.strerror)
+            "{path} cannot be read, {reason}; give the path of a CSV file", path=str(path), reason=reason(error)
         ) from error
     except (ValueError, csv.Error) as error:
         raise RequestError(

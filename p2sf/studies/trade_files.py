@@ -10,6 +10,7 @@ from typing import Any
 
 from p2sf.errors import RequestError
 from p2sf.files.reading import parse_json, read_text
+from p2sf.files.reasons import reason
 from p2sf.files.writing import write_beside
 from p2sf.lens.lens import Lens
 from p2sf.studies.complete_trade import LensTrade, Row, SpaceWords, Spread, compare_representations
@@ -110,7 +111,7 @@ def load_trades(path: str | PathLike[str]) -> list[LensTrade]:
         raise RequestError(
             "{path} holds no complete trade ({reason}); write one with p2sf tradeoff --complete -o",
             path=str(path),
-            reason=str(error),
+            reason=reason(error),
         ) from error
 
 

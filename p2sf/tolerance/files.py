@@ -25,6 +25,7 @@ from typing import Any, cast
 
 from p2sf.errors import GeometryError, LensFileError
 from p2sf.files.reading import toml_table
+from p2sf.files.reasons import reason
 from p2sf.lens.lens import Lens
 from p2sf.lensfile.source_text import read_text
 from p2sf.lensfile.toml.table import Constraint, Table
@@ -57,7 +58,7 @@ def read_tolerances(
     try:
         top = Table(str(path), text, toml_table(text))
     except ValueError as error:
-        raise LensFileError("this is not TOML ({reason}); correct the line", path, reason=str(error)) from None
+        raise LensFileError("this is not TOML ({reason}); correct the line", path, reason=reason(error)) from None
     top.check_keys(("grade", "tolerance", "compensator"))
     named = top.string("grade", grade)
     if named not in (*GRADES, "none"):

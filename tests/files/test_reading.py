@@ -11,6 +11,8 @@ from time import process_time
 
 import numpy as np
 import pytest
+import tifffile
+from PIL import Image
 
 from p2sf import load_lens
 from p2sf.cli import main
@@ -18,7 +20,8 @@ from p2sf.database.files.npz import load_database
 from p2sf.errors import LensFileError, P2SFError
 from p2sf.files.reading import LARGEST, MOST_MEMBERS, read_array, read_arrays, toml_table
 from p2sf.io.depth_files import read_scene_depths
-from p2sf.io.photo_files import photo_shape, read_photo
+from p2sf.io.photo_files import photo_shape, read_photo, read_samples, write_photo
+from p2sf.io.png16 import write_deep
 from p2sf.io.psf_files import read_psf
 from p2sf.lensfile.importing import FORMATS, import_lens
 from p2sf.lensfile.library import lenses_folder
@@ -36,7 +39,7 @@ READERS = {
     "a lens of this program": (load_lens, ".toml"),
     "a photo": (read_photo, ".png"),
     "a photo's size": (photo_shape, ".png"),
-    "a map of depths": (lambda path: read_scene_depths(path, 100.0, 1000.0), ".heic"),
+    "a map of depths": (lambda path: scene_depths(path), ".heic"),
     "a PSF as npz": (read_psf, ".npz"),
     "a PSF as csv": (read_psf, ".csv"),
     "a PSF as tiff": (read_psf, ".tiff"),
@@ -125,6 +128,14 @@ def test_the_declared_sizes_of_an_archive_are_summed_before_any_is_unpacked():
     )
 
 
+def test_a_stream_that_is_read_stays_open_for_its_owner():
+    stream = io.BytesIO(archive(1000))
+    assert len(read_arrays(stream)["0"]) == 1000 and not stream.closed
+    with pytest.raises(ValueError):
+        read_arrays(damaged := io.BytesIO(b"PK\3\4 and no more"))
+    assert not damaged.closed
+
+
 BOMB = archive(LARGEST // 4, 5)
 
 
@@ -201,3 +212,37 @@ def test_nothing_in_a_file_steers_the_terminal(tmp_path, capsys):
     assert main(["info", str(path)]) == 2
     written = "".join(capsys.readouterr())
     assert "Plano-convex singlet" in written and not re.search("[\x00-\x08\x0b-\x1f\x7f-\x9f]", written)
+
+
+def exr(path):
+    write_photo(path, np.zeros((200, 300, 3)), "linear")
+
+
+PICTURES = {
+    ".png": lambda path: Image.new("RGB", (300, 200)).save(path),
+    ".16.png": lambda path: path.write_bytes(write_deep(np.zeros((200, 300, 3), np.uint16))),
+    ".jpg": lambda path: Image.new("RGB", (300, 200)).save(path),
+    ".tif": lambda path: tifffile.imwrite(path, np.zeros((200, 300, 3), np.uint8), compression="zlib"),
+    ".exr": lambda path: pytest.importorskip("OpenEXR") and exr(path),
+    ".npy": lambda path: np.save(path, np.zeros((200, 900))),
+    ".fits": lambda path: pytest.importorskip("astropy.io.fits").PrimaryHDU(np.zeros((200, 900))).writeto(path),
+}
+
+
+@pytest.mark.parametrize("ending", PICTURES)
+def test_one_limit_in_samples_holds_for_every_reader_of_pictures(ending, tmp_path, monkeypatch):
+    """180 000 samples, read until one number of `p2sf.files.reading` allows fewer."""
+    path = tmp_path / f"picture{ending}"
+    PICTURES[ending](path)
+    assert read_counts(path).values.size in (60_000, 180_000)
+    monkeypatch.setattr("p2sf.files.reading.MOST_SAMPLES", 179_999)
+    readers = [read_counts] if ending in (".npy", ".fits") else [read_counts, read_photo, read_samples, scene_depths]
+    for read in readers:
+        with pytest.raises(P2SFError):
+            read(path)
+    monkeypatch.setattr("p2sf.files.reading.MOST_SAMPLES", 180_000)
+    assert read_counts(path).values.size in (60_000, 180_000)
+
+
+def scene_depths(path):
+    return read_scene_depths(path, 100.0, 1000.0)

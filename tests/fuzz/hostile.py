@@ -57,8 +57,9 @@ def window(path: Path) -> None:
 
 
 def pupil_map(path: Path) -> None:
-    surfaces = "[[surface]]\nradius = 50\nthickness = 5\nindex = 1.5\n[[surface]]\nthickness = 50\n"
-    parse_toml(f'[pupil]\nphase_file = "{path.name}"\n{surfaces}', path.with_name("lens.toml"))
+    surfaces = f'{SURFACE}glass = "SCHOTT N-BK7"\n[[surface]]\nradius = inf\nthickness = 50\n'
+    aperture = "[aperture]\nstop_semi_diameter = 5\n"
+    parse_toml(f'[pupil]\nphase_file = "{path.name}"\n{aperture}{surfaces}', path.with_name("lens.toml"))
 
 
 ROADS: dict[str, Reader] = {
@@ -125,6 +126,7 @@ def text(piece: str, count: int, before: str = "", after: str = "") -> Maker:
 
 
 def data(content: Callable[[], bytes]) -> Maker:
+    """Return the maker of a file of bytes."""
     return lambda path: path.write_bytes(content())
 
 
@@ -203,11 +205,11 @@ def tiff(width: int, height: int, bits: int, *more: tuple[int, int, int, int], t
     return b"II*\0" + struct.pack("<I", 8) + struct.pack("<H", len(entries)) + body + bytes(4) + tail
 
 
-def tiff_bomb(side: int, bits: int) -> bytes:
+def tiff_bomb(side: int, bits: int, *more: tuple[int, int, int, int]) -> bytes:
     packed = deflated_zeros(side * side * bits // 8 // MB * MB)
-    place = 8 + 2 + 12 * 9 + 4
+    place = 8 + 2 + 12 * (9 + len(more)) + 4
     strip = (273, 4, 1, place), (278, 4, 1, side), (279, 4, 1, len(packed))
-    return tiff(side, side, bits, *strip, tail=packed)
+    return tiff(side, side, bits, *strip, *more, tail=packed)
 
 
 def jpeg(width: int, height: int, scans: int = 1) -> bytes:
@@ -343,6 +345,7 @@ TANGLED: dict[tuple[str, str], tuple[str, str, int, str]] = {
 HUGE = 65_000
 BOMBS: dict[tuple[str, str], Callable[[], bytes]] = {
     ("1 GB of zeros", ".npz"): lambda: npz(GB),
+    ("190 MB of zeros", ".npz"): lambda: npz(190 * MB),
     ("40 arrays of 100 MB", ".npz"): lambda: npz(100 * MB, members=40),
     ("one array in 100 entries", ".npz"): lambda: overlapping(100),
     ("an array that is not there", ".npz"): lambda: archive({"psf.npy": zeros(0, npy_head("(1000000, 1000000)"))}),
@@ -366,6 +369,11 @@ BOMBS: dict[tuple[str, str], Callable[[], bytes]] = {
     ("four gigabits", ".png"): lambda: png(HUGE, HUGE, 1, 0, zeros=500 * MB),
     ("16 bits, 65 000 pixels on a side", ".png"): lambda: png(HUGE, HUGE, 16, 2, zeros=100 * MB),
     ("16 bits, 4000 pixels on a side", ".png"): lambda: png(4000, 4000, 16, 2, zeros=97 * MB),
+    ("16 bits and alpha, 3500 pixels on a side", ".png"): lambda: png(3500, 3500, 16, 6, zeros=99 * MB),
+    ("16 bits of grey, 7000 pixels on a side", ".png"): lambda: png(7000, 7000, 16, 0, zeros=99 * MB),
+    ("as many pixels as a map may have", ".png"): lambda: png(1024, 1024, 16, 0, zeros=3 * MB),
+    ("a million parts", ".png"): lambda: png(9, 9, 8, 0, *[(b"abCd", b"")] * MB, zeros=MB),
+    ("parts of 100 MB", ".png"): lambda: png(9, 9, 8, 0, *[(b"abCd", bytes(10 * MB))] * 10, zeros=MB),
     ("one row of 65 535 pixels", ".png"): lambda: png(65_535, 1, 16, 2, zeros=MB),
     ("16 bits in one column", ".png"): lambda: png(1, 65_535, 16, 2, zeros=MB),
     ("7000 pixels on a side", ".png"): lambda: png(7000, 7000, 8, 0, zeros=49 * MB),
@@ -379,9 +387,15 @@ BOMBS: dict[tuple[str, str], Callable[[], bytes]] = {
     ("a profile of 1 GB", ".png"): lambda: png(9, 9, 8, 0, (b"iCCP", b"a\0\0" + deflated_zeros(GB)), zeros=MB),
     ("65 000 pixels on a side", ".tif"): lambda: tiff_bomb(HUGE, 8)[: 2 * MB],
     ("7000 pixels on a side, 64 bits", ".tif"): lambda: tiff_bomb(7000, 64),
+    ("7000 pixels on a side, 32 bits", ".tif"): lambda: tiff_bomb(7000, 32),
+    ("7000 pixels on a side, floats", ".tif"): lambda: tiff_bomb(7000, 32, (339, 3, 1, 3)),
+    ("7000 pixels on a side, 8 bits", ".tif"): lambda: tiff_bomb(7000, 8),
     ("a directory that names itself", ".tif"): lambda: tiff(9, 9, 8)[:-4] + struct.pack("<I", 8),
     ("strips without end", ".tif"): lambda: tiff(9, HUGE, 8, (273, 4, 10**9, 8), (279, 4, 10**9, 8)),
     ("65 000 pixels on a side", ".jpg"): lambda: jpeg(HUGE, HUGE),
+    ("7000 pixels on a side, sixty scans", ".jpg"): lambda: jpeg(7000, 7000, scans=59),
+    ("150 MB in which nothing begins", ".jpg"): lambda: b"\xff\xd8\xff" + bytes(150 * MB),
+    ("segments without end", ".jpg"): lambda: b"\xff\xd8" + b"\xff\xe5\0\2" * 10 * MB,
     ("ten thousand scans", ".jpg"): lambda: jpeg(5000, 5000, scans=10_000),
     ("a million pixels on a side", ".exr"): lambda: exr(10**6, 10**6),
     ("7000 pixels on a side", ".exr"): lambda: exr(7000, 7000),

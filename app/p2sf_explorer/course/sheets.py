@@ -9,6 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from p2sf.errors import ExportError
+from p2sf.files.reasons import reason
 from p2sf.files.writing import check_own, write_beside
 from p2sf.messages import Message, Style
 from p2sf_explorer.compute.layout import layout
@@ -226,9 +227,8 @@ def write_course(
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        reason = error.strerror or type(error).__name__
         raise ExportError(
-            "{path} cannot be made ({reason}); choose another folder", path=str(folder), reason=reason
+            "{path} cannot be made ({reason}); choose another folder", path=str(folder), reason=reason(error)
         ) from None
     lectures, faults = found_lessons((FOLDER,), language)
     if faults:

@@ -12,6 +12,7 @@ from pathlib import Path
 
 from p2sf.errors import P2SFError
 from p2sf.files.reading import read_text
+from p2sf.files.reasons import reason
 from p2sf.messages import Message
 from p2sf_explorer.compute.setup import default_state
 from p2sf_explorer.lessons.changes import Changes, LessonError, apply_changes, beside, fault, read_changes
@@ -151,8 +152,9 @@ def _text(path: str | os.PathLike[str]) -> str:
     try:
         text = read_text(path, MOST_BYTES)
     except (OSError, UnicodeDecodeError) as error:
-        why = getattr(error, "strerror", None) or type(error).__name__
-        raise P2SFError("{path} cannot be read ({why}); give a lesson as UTF-8 text", path=str(path), why=why) from None
+        raise P2SFError(
+            "{path} cannot be read ({why}); give a lesson as UTF-8 text", path=str(path), why=reason(error)
+        ) from None
     long = next((n for n, line in enumerate(text.split("\n"), 1) if len(line) > LONGEST_LINE), 0)
     if long:
         raise fault(str(path), long, "the line has over {count} letters; break it", count=LONGEST_LINE)

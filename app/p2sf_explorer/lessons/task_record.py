@@ -12,6 +12,7 @@ from typing import Any
 
 from p2sf.errors import ExportError
 from p2sf.files.reading import parse_json, read_text
+from p2sf.files.reasons import reason
 from p2sf.files.writing import write_json
 from p2sf.messages import Message
 from p2sf.version import program_version
@@ -73,7 +74,7 @@ def read_result(path: Path) -> CourseResult:
     try:
         content = parse_json(read_text(path, MOST_BYTES))
     except OSError as error:
-        raise _unreadable(path, Message(error.strerror or type(error).__name__)) from None
+        raise _unreadable(path, reason(error)) from None
     except ValueError:
         raise _unreadable(path, Message("it is damaged")) from None
     if not isinstance(content, dict) or MARK not in content:
@@ -86,7 +87,7 @@ def read_result(path: Path) -> CourseResult:
         raise _unreadable(path, Message("its entry {entry} is damaged", entry=str(error))) from None
 
 
-def _unreadable(path: Path, why: Message) -> ExportError:
+def _unreadable(path: Path, why: Message | str) -> ExportError:
     return ExportError("{path} cannot be read: {why}", path=path.name, why=why)
 
 

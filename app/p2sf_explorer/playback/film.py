@@ -16,8 +16,9 @@ from threading import Event
 from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 
 from p2sf.errors import ExportError
+from p2sf.files.reasons import FileRefusedError, reason
 from p2sf.files.writing import check_own, check_place, write_beside
-from p2sf.messages import Alternatives
+from p2sf.messages import Alternatives, Message
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -29,6 +30,7 @@ OWN_FRAME = b"P2SF Explorer"  # in the text chunk of every frame
 CRF = "18"  # the quality at which H.264 shows no loss
 WAITING = 3  # frames between the window and the writer
 PATIENCE_S = 0.1
+NO_ROOM = Message("there is no room for it in the folder of temporary files")
 PathLike = str | os.PathLike[str]
 T = TypeVar("T")
 
@@ -154,7 +156,7 @@ def _write_mp4(frames: Iterator[FilmFrame], handle: BinaryIO, frame_ms: int) -> 
         finally:
             writer.close()
         if _frames_in(made) != sent:
-            raise OSError(errno.ENOSPC, "there is no room for it in the folder of temporary files")
+            raise FileRefusedError(errno.ENOSPC, NO_ROOM, str(made))
         with made.open("rb") as film:
             shutil.copyfileobj(film, handle)
 
@@ -194,7 +196,7 @@ def _write_pngs(frames: Iterator[FilmFrame], path: Path) -> tuple[Path, ...]:
         raise ExportError(
             "{path} cannot be written, {why}; choose another place",
             path=str(path),
-            why=(error.strerror or str(error)).lower(),
+            why=reason(error),
         ) from error
     finally:
         with suppress(OSError):

@@ -19,6 +19,7 @@ from vtkmodules.vtkCommonCore import vtkLogger, vtkUnsignedCharArray
 from vtkmodules.vtkRenderingCore import vtkRenderWindow
 
 from p2sf.errors import ExportError, P2SFError
+from p2sf.files.reasons import reason
 from p2sf.files.writing import check_own, check_place, write_beside
 from p2sf.messages import Alternatives
 from p2sf_explorer.charts.plots import as_indices, lookup
@@ -170,7 +171,7 @@ def write_drafted(path: str, write: Callable[[str], object]) -> None:
             drafts = {draft.name: draft.read_bytes() for draft in Path(folder).iterdir()}
     except OSError as error:
         raise ExportError(
-            "{path} cannot be written, {reason}; choose a folder you may write to", path=path, reason=error.strerror
+            "{path} cannot be written, {reason}; choose a folder you may write to", path=path, reason=reason(error)
         ) from error
     if not all(drafts.get(name) for name in {target.name, *drafts}):
         raise ExportError("{path} cannot be written, the draft beside it stayed empty; choose another disk", path=path)

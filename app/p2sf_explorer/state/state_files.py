@@ -8,6 +8,7 @@ from typing import Any
 
 from p2sf.errors import P2SFError
 from p2sf.files.reading import open_file, read_text
+from p2sf.files.reasons import reason
 from p2sf.messages import Message
 from p2sf_explorer.state.state import ENTRIES, FIRST, State
 
@@ -178,6 +179,6 @@ def read_state(path: str | os.PathLike[str]) -> State:
         raise P2SFError(
             "{path} cannot be read ({why}); give a state file that exists",
             path=str(path),
-            why=getattr(error, "strerror", None) or type(error).__name__,
+            why=reason(error),
         ) from None
     return state_from_json(text, str(path))

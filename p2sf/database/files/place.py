@@ -13,6 +13,7 @@ from typing import Any
 from urllib.parse import unquote, urlsplit
 
 from p2sf.errors import DatabaseError
+from p2sf.files.reasons import reason
 
 Place = Path | str
 """A folder, or the URL of a place elsewhere."""
@@ -112,9 +113,3 @@ def failures() -> tuple[type[Exception], ...]:
     """Return the errors of reading and writing, in a folder or by any of the loaded libraries."""
     loaded = ((sys.modules.get(module), name) for module, name in ELSEWHERE)
     return (OSError, *(getattr(module, name) for module, name in loaded if module))
-
-
-def reason(error: Exception) -> str:
-    """Return the text of an error for the middle of a sentence."""
-    text = " ".join((getattr(error, "strerror", None) or str(error) or type(error).__name__).split()).rstrip(".")
-    return text[:1].lower() + text[1:]

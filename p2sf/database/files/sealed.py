@@ -14,6 +14,7 @@ import numpy as np
 
 from p2sf.errors import DatabaseError
 from p2sf.files.reading import read_arrays, read_bytes
+from p2sf.files.reasons import reason
 from p2sf.files.writing import write_beside
 
 SEAL = b"p2sf sha256 "
@@ -68,7 +69,7 @@ def _bytes(path: str | PathLike[str]) -> bytes:
         raise DatabaseError(
             "{path} cannot be read, {reason}; check the name",
             path=str(path),
-            reason=(error.strerror or str(error)).lower(),
+            reason=reason(error),
         ) from error
 
 

@@ -11,10 +11,11 @@ import numpy as np
 
 from p2sf.database.cost import products
 from p2sf.database.files import database_bytes, same_database
-from p2sf.database.files.place import exists, failures, place_of, reason
+from p2sf.database.files.place import exists, failures, place_of
 from p2sf.database.files.stack import TEMPORARY, Chunk, Stack, create, open_stack
 from p2sf.database.render import Database, Sampling, critical_pixel_um, fine_sampling, light_of, samples_per_pixel
 from p2sf.errors import DatabaseError
+from p2sf.files.reasons import reason
 from p2sf.lens.lens import Lens
 from p2sf.threads import for_each
 

@@ -62,6 +62,7 @@ from typing import Any, cast
 from p2sf.conventions import FARTHEST_MM, NM_PER_UM
 from p2sf.errors import GeometryError, LensFileError
 from p2sf.files.reading import toml_table
+from p2sf.files.reasons import reason
 from p2sf.lens.lens import (
     D_NM,
     USUAL_AIM,
@@ -226,7 +227,7 @@ def _values(text: str, path: str) -> dict[str, Any]:
             "this is not TOML ({reason}); {remedy}", path, line, reason=problem, remedy=_remedy(text, line)
         ) from None
     except ValueError as error:
-        raise LensFileError("{reason}; this is not a lens file", path, reason=str(error)) from None
+        raise LensFileError("{reason}; this is not a lens file", path, reason=reason(error)) from None
 
 
 def _remedy(text: str, line: int) -> Message:

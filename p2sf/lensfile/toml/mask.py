@@ -9,13 +9,17 @@ from typing import Any
 import numpy as np
 
 from p2sf.errors import P2SFError
-from p2sf.files.reading import check_samples, open_file, read_array, size_of
+from p2sf.files.atomic import DAMAGED
+from p2sf.files.picture_parts import open_picture
+from p2sf.files.reading import read_array
+from p2sf.files.reasons import reason
 from p2sf.lensfile.source_text import digits
 from p2sf.lensfile.toml.table import Constraint, Table, shorten
 from p2sf.messages import Message
-from p2sf.pupil.mask import PupilMap, PupilMask
+from p2sf.pupil.mask import PupilMap, PupilMask, check_map_shape
 
 NUMBERS, COUNTS = (tuple(field.name for field in fields(PupilMask) if field.type is kind) for kind in (float, int))
+PICTURES = ("PNG", "JPEG", "TIFF", "BMP", "GIF")
 MAPS = {"phase_map": "µm", "amplitude_map": "1"}
 FILES = {"phase_file": "phase_map", "amplitude_file": "amplitude_map"}
 PUPIL = (*NUMBERS, *COUNTS, "zernike_um", *MAPS, *FILES, "phase_file_um")
@@ -62,17 +66,20 @@ def _map_of_file(table: Table, key: str, scale: float) -> PupilMap:
         return PupilMap(scale * _array_of(path))
     except P2SFError as error:
         table.fail(error.message, key)
-    except (OSError, ValueError) as error:
-        table.fail("{name} cannot be read ({reason}); name a picture or a .npy file", key, name=name, reason=str(error))
+    except (OSError, ValueError, *DAMAGED) as error:
+        table.fail(
+            "{name} cannot be read ({reason}); name a picture or a .npy file", key, name=name, reason=reason(error)
+        )
 
 
 def _array_of(path: Path) -> np.ndarray:
+    """Return the samples of a picture or of an array, from 0 to 1 in a picture; its shape is checked in its head."""
     if path.suffix.lower() == ".npy":
-        return np.asarray(read_array(path), dtype=float)
-    from PIL import Image
-
-    with open_file(path) as stream, Image.open(stream) as picture:
-        check_samples(picture.size, size_of(stream))
+        found = read_array(path)
+        check_map_shape(found.shape)
+        return np.asarray(found, dtype=float)
+    with open_picture(path, PICTURES) as picture:
+        check_map_shape(picture.size)
         grey = np.asarray(picture.convert("F") if picture.mode != "I;16" else picture, dtype=float)
         full = 65535.0 if picture.mode.startswith("I") else 255.0
     return grey[::-1] / full  # the picture's top row is +η

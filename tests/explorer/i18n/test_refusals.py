@@ -1,12 +1,20 @@
 """Every text has German; a German window refuses with German numbers and names, the command line with its flags."""
 
+import os
 import re
+from pathlib import Path
 
 import pytest
 
 from p2sf.cli import main
+from p2sf.errors import P2SFError
+from p2sf.io.photo_files import read_photo
+from p2sf.lensfile.library import find_lens
+from p2sf.tolerance.files import read_tolerances
 from p2sf_explorer.i18n.extract import missing, obsolete_texts, required_texts
 from p2sf_explorer.i18n.language import set_language
+from p2sf_explorer.i18n.messages import said
+from tests.fuzz.hostile import jpeg, png, tiff
 
 ENGLISH = re.compile(r"\b(the|is|are|give|write|of|and|with|not|has|holds|choose|to|it|or|from|which|that)\b")
 BROKEN = "SURF 0\n  DISZ INFINITY\nSURF 1\n  STOP\n  CURV abc\n"
@@ -70,6 +78,40 @@ def test_a_broken_lens_file_is_refused_in_german(german_window, tmp_path):
     said = german_window.banner.text.text().replace("\u00a0", " ")
     assert "kaputt.zmx, Zeile 5:" in said and not ENGLISH.search(said.partition("kaputt.zmx")[2])
     german_window.store.update(tab="profiles")
+
+
+REFUSED = {
+    "a pipe": (os.mkfifo, ".png"),
+    "nothing": (lambda path: None, ".png"),
+    "a folder": (Path.mkdir, ".toml"),
+    "a bomb": (lambda path: path.write_bytes(png(60_000, 60_000, 8, 2)), ".png"),
+    "chunks": (lambda path: path.write_bytes(png(9, 9, 8, 2, *[(b"abCd", bytes(10**7))] * 7)), ".png"),
+    "scans": (lambda path: path.write_bytes(jpeg(90, 90, 100)), ".jpg"),
+    "strips": (lambda path: path.write_bytes(tiff(9, 60_000, 8, (273, 4, 10**9, 8), (279, 4, 10**9, 8))), ".tif"),
+    "a key of many parts": (lambda path: path.write_text("a." * 1000 + "a = 1"), ".toml"),
+    "nested lists": (lambda path: path.write_text("a = " + "[" * 10_000), ".toml"),
+}
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="the system has no pipes with names")
+@pytest.mark.parametrize("kind", REFUSED)
+def test_why_a_file_is_refused_is_said_in_german(kind, tmp_path):
+    """The words of the system and of the limits too, which are handed from reader to reader."""
+    make, ending = REFUSED[kind]
+    path = tmp_path / f"x{ending}"
+    make(path)
+    with pytest.raises(P2SFError) as refused:
+        (read_tolerances_of if ending == ".toml" else read_photo)(path)
+    set_language("de")
+    try:
+        words = said(refused.value).replace(str(path), "")
+    finally:
+        set_language("en")
+    assert words != str(refused.value).replace(str(path), "") and not ENGLISH.search(words)
+
+
+def read_tolerances_of(path):
+    return read_tolerances(path, find_lens("tessar"))
 
 
 @pytest.mark.parametrize(

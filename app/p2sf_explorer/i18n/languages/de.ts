@@ -2708,9 +2708,7 @@
 <message><source>{path} holds {count} points of a target; at least {least} are needed</source><translation>{path} enthält {count} Punkte einer Zielkarte; nötig sind mindestens {least}</translation></message>
 <message><source>{path} holds {kind} samples; save it with 8 or 16 bits or as float</source><translation>{path} enthält Werte vom Typ {kind}; mit 8 oder 16 Bit oder als Gleitkomma speichern</translation></message>
 <message><source>{path} is a TIFF that cannot be read ({why}); save it again, uncompressed</source><translation>{path} ist ein TIFF, das nicht lesbar ist ({why}); noch einmal speichern, unkomprimiert</translation></message>
-<message><source>{path} is a damaged PNG ({why}); save the picture again</source><translation>{path} ist ein beschädigtes PNG ({why}); das Bild neu speichern</translation></message>
 <message><source>{path} is a damaged {kind} ({why}); save the picture again</source><translation>{path} ist ein beschädigtes {kind} ({why}); das Bild neu speichern</translation></message>
-<message><source>{path} is an interlaced or indexed 16-bit PNG; save it without interlacing, in RGB or grey</source><translation>{path} ist ein verschachteltes oder indiziertes 16-Bit-PNG; ohne Interlacing speichern, in RGB oder Grau</translation></message>
 <message><source>{path} is not a PNG, TIFF, OpenEXR, JPEG or HEIF that can be read; convert it to one</source><translation>{path} ist kein lesbares PNG, TIFF, OpenEXR, JPEG oder HEIF; in eines davon umwandeln</translation></message>
 <message><source>{path} is not a PSF that this program wrote as FITS; save the snapshot again</source><translation>{path} ist keine PSF, die dieses Programm als FITS geschrieben hat; den Schnappschuss neu speichern</translation></message>
 <message><source>{path} is not a PSF that this program wrote; export it again with p2sf psf -o</source><translation>{path} ist keine PSF, die dieses Programm geschrieben hat; mit p2sf psf -o neu ausgeben</translation></message>
@@ -2718,7 +2716,6 @@
 <message><source>{path} is not a measurement that this program wrote; make it with p2sf measure -o</source><translation>{path} ist keine Messung, die dieses Programm geschrieben hat; sie mit p2sf measure -o erstellen</translation></message>
 <message><source>{path} is not on this computer; the saved state carries the lens itself</source><translation>{path} ist nicht auf diesem Rechner; der gespeicherte Zustand enthält das Objektiv selbst</translation></message>
 <message><source>{path} is not valid TOML: {reason}; correct it</source><translation>{path} ist kein TOML: {reason}; berichtigen</translation></message>
-<message><source>{path} is too large a PNG ({why}); save it smaller</source><translation>{path} ist ein zu großes PNG ({why}); kleiner speichern</translation></message>
 <message><source>{path} is too large a {kind} ({why}); save it smaller</source><translation>{path} ist als {kind} zu groß ({why}); kleiner speichern</translation></message>
 <message><source>{path} is too large: {reason}; cut it</source><translation>{path} ist zu groß: {reason}; zuschneiden</translation></message>
 <message><source>{path} lists a wavefront, not a PSF; list the PSF of the same point</source><translation>{path} listet eine Wellenfront, keine PSF; die PSF desselben Punktes ausgeben</translation></message>
@@ -2898,8 +2895,39 @@
 <message><source>surface {surface} transmits no light; give a share above 0</source><translation>Fläche {surface} lässt kein Licht durch; einen Anteil über 0 angeben</translation></message>
 <message><source>surface {surface}: thickness {thickness} mm; give a number from {low:g} to {high:g}</source><translation>Fläche {surface}: Dicke {thickness} mm; eine Zahl von {low:g} bis {high:g} angeben</translation></message>
 <message><source>the line has over {count} letters; break it</source><translation>die Zeile hat über {count} Zeichen; sie umbrechen</translation></message>
-<message><source>{path} cannot be read, {reason}; save it smaller, or as a TIFF</source><translation>{path} lässt sich nicht lesen, {reason}; kleiner oder als TIFF speichern</translation></message>
 <message><source>{reason}; this is not a lens file</source><translation>{reason}; das ist keine Objektivdatei</translation></message>
 <message><source>{y} in y, {x} in x</source><translation>{y} in y, {x} in x</translation></message>
+<message><source>a number is too long</source><translation>eine Zahl ist zu lang</translation></message>
+<message><source>disk quota exceeded</source><translation>der zugeteilte Speicherplatz ist erschöpft</translation></message>
+<message><source>file name too long</source><translation>der Dateiname ist zu lang</translation></message>
+<message><source>file too large</source><translation>die Datei ist zu groß</translation></message>
+<message><source>input/output error</source><translation>Ein- oder Ausgabefehler</translation></message>
+<message><source>is a directory</source><translation>es ist ein Ordner</translation></message>
+<message><source>it has more than {count:g} million bytes</source><translation>sie hat mehr als {count:g} Millionen Byte</translation></message>
+<message><source>it is a pipe or a device and not a file</source><translation>es ist eine Pipe oder ein Gerät und keine Datei</translation></message>
+<message><source>it is no text in UTF-8</source><translation>es ist kein Text in UTF-8</translation></message>
+<message><source>its description is of another program</source><translation>ihre Beschreibung stammt von einem anderen Programm</translation></message>
+<message><source>line {line} has a key of more than {most} parts</source><translation>Zeile {line} hat einen Schlüssel mit mehr als {most} Teilen</translation></message>
+<message><source>lists or tables are nested too deep</source><translation>Listen oder Tabellen sind zu tief verschachtelt</translation></message>
+<message><source>more than {most:.0f} MB beside the picture</source><translation>mehr als {most:.0f} MB neben dem Bild</translation></message>
+<message><source>more than {most} parts</source><translation>mehr als {most} Teile</translation></message>
+<message><source>more than {most} passes over its pixels</source><translation>mehr als {most} Durchgänge über seine Pixel</translation></message>
+<message><source>no archive of arrays: {error}</source><translation>kein Archiv von Feldern: {error}</translation></message>
+<message><source>no array of numbers</source><translation>kein Feld von Zahlen</translation></message>
+<message><source>no picture within {most} parts</source><translation>kein Bild unter den ersten {most} Teilen</translation></message>
+<message><source>no space left on device</source><translation>auf dem Datenträger ist kein Platz mehr</translation></message>
+<message><source>no such file or directory</source><translation>es gibt keine solche Datei und keinen solchen Ordner</translation></message>
+<message><source>not a directory</source><translation>es ist kein Ordner</translation></message>
+<message><source>operation not permitted</source><translation>der Vorgang ist nicht erlaubt</translation></message>
+<message><source>permission denied</source><translation>der Zugriff ist verweigert</translation></message>
+<message><source>read-only file system</source><translation>das Dateisystem ist schreibgeschützt</translation></message>
+<message><source>the file is write-protected</source><translation>die Datei ist schreibgeschützt</translation></message>
+<message><source>too many levels of symbolic links</source><translation>zu viele symbolische Verknüpfungen hintereinander</translation></message>
+<message><source>{count} letters of JSON, at most {most}</source><translation>{count} Zeichen JSON, höchstens {most}</translation></message>
+<message><source>{count} members, at most {most}</source><translation>{count} Bestandteile, höchstens {most}</translation></message>
+<message><source>{count} parts in {size} bytes</source><translation>{count} Teile in {size} Byte</translation></message>
+<message><source>{declared:.0f} MB in {size} bytes, at most {most:.0f} MB</source><translation>{declared:.0f} MB in {size} Byte, höchstens {most:.0f} MB</translation></message>
+<message><source>{shape} samples in {size} bytes, at most {side} on a side and {most:.0f} million in all</source><translation>{shape} Abtastwerte in {size} Byte, höchstens {side} auf einer Seite und {most:.0f} Millionen insgesamt</translation></message>
+<message><source>more than {most:.0f} million pixels</source><translation>mehr als {most:.0f} Millionen Pixel</translation></message>
 </context>
 </TS>

@@ -22,6 +22,7 @@ from PySide6.QtWidgets import (
 )
 
 from p2sf.errors import P2SFError
+from p2sf.files.reasons import reason
 from p2sf.messages import Message
 from p2sf_explorer.compute.caption import field_text
 from p2sf_explorer.compute.quantities import SOURCE_QUANTITIES
@@ -210,7 +211,7 @@ class LessonMaker(QDialog):
             self.why.setText(said(error))
             return
         except OSError as error:
-            why = Message("{path} cannot be written ({why})", path=str(error.filename), why=str(error.strerror))
+            why = Message("{path} cannot be written ({why})", path=str(error.filename), why=reason(error))
             self.why.setText(said(why))
             return
         self.steps = []
