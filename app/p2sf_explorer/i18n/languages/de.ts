@@ -2929,5 +2929,6 @@
 <message><source>{declared:.0f} MB in {size} bytes, at most {most:.0f} MB</source><translation>{declared:.0f} MB in {size} Byte, höchstens {most:.0f} MB</translation></message>
 <message><source>{shape} samples in {size} bytes, at most {side} on a side and {most:.0f} million in all</source><translation>{shape} Abtastwerte in {size} Byte, höchstens {side} auf einer Seite und {most:.0f} Millionen insgesamt</translation></message>
 <message><source>more than {most:.0f} million pixels</source><translation>mehr als {most:.0f} Millionen Pixel</translation></message>
+<message><source>there is no room for it in the folder of temporary files</source><translation>im Ordner für temporäre Dateien ist dafür kein Platz</translation></message>
 </context>
 </TS>
