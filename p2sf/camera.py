@@ -428,6 +428,12 @@ class Camera(Settings):
         sharp: np.ndarray = sharpen_image(planned, pixels, given, noise=noise, threads=threads)
         return sharp.reshape(values.shape)
 
+    def picture_plan(
+        self, values: ArrayLike, depth_mm: ArrayLike | None = None, *, rtol: float = 0.05, clip: bool = False
+    ) -> "Plan":
+        """Return the plan by which `photograph` forms a picture of this shape, and `sharpen` sharpens one."""
+        return self._plan(real_array("values", values), self._depths(depth_mm), rtol, clip)
+
     def _depths(self, depth_mm: ArrayLike | None) -> np.ndarray:
         """Return the depths of a picture, (1,) or of every pixel, by default the distance in focus."""
         depths = np.atleast_1d(real_array("depth_mm", self._usual_depth if depth_mm is None else depth_mm))

@@ -25,7 +25,6 @@ from p2sf.cli.screen import print_json, print_table, warn
 from p2sf.errors import RequestError
 from p2sf.files.writing import write_beside
 from p2sf.image.charts import CHARTS, draw_chart
-from p2sf.image.deblur import photo_noise
 from p2sf.image.exposure import check_seed, expose, raw_numbers
 from p2sf.io.depth_files import read_scene_depths
 from p2sf.io.photo_files import WRITABLE, Photo, check_ending, kept_depth, read_photo, stored_as, write_photo
@@ -397,6 +396,9 @@ def sharpen(
     as_json: Json = False,
 ) -> None:
     """Sharpen a photo that the lens took, by the kernels of every place, and write it as .png or .tif."""
+    from p2sf.image.form import check_picture
+    from p2sf.image.picture import sharpen_one_depth
+
     if output is None or pixel_um is None:
         missing = "output" if output is None else "pixel_um"
         raise RequestError("there is no {parameter}; give it", parameter=missing)
@@ -404,15 +406,17 @@ def sharpen(
     own = Camera(find_lens(lens), pixel_um=pixel_um, **explicit_values(camera))
     taken = read_photo(photo, encoding)
     warn(taken.caution)
-    values = taken.values if taken.values.shape[2] == 3 else taken.values[..., 0]
-    sharp = own.sharpen(values, depth_mm, noise=noise, rtol=rtol, clip=clip, threads=threads)
-    level = photo_noise(taken.values) if noise is None else noise
+    planned = own.picture_plan(taken.values, depth_mm, rtol=rtol, clip=clip)
+    with using_threads(threads):
+        sharp, about = sharpen_one_depth(planned, check_picture(planned.scene, taken.values), noise)
     write_photo(output, sharp, taken.encoding, kept_depth(output, taken))
     rows, columns = sharp.shape[:2]
     if as_json:
-        about = {"file": str(output), "rows": rows, "columns": columns, "encoding": taken.encoding, "noise": level}
-        return print_json(about)
-    print(f"{output}: {columns} × {rows} pixels, {taken.encoding}, noise {level:.2g} of white")
+        facts = {"file": str(output), "rows": rows, "columns": columns, "encoding": taken.encoding}
+        return print_json({**facts, "least_noise": about.low, "noise": about.high})
+    low, high = (f"{level:.2g}" for level in (about.low, about.high))
+    noises = high if low == high else f"{low} to {high}"
+    print(f"{output}: {columns} × {rows} pixels, {taken.encoding}, noise {noises} of white")
     return None
 
 

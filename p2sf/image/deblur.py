@@ -66,7 +66,7 @@ def photo_statistics(values: np.ndarray, lattice: Lattice, noise: float | None =
         raise RequestError(
             "the noise is {noise:g}; give the standard deviation of the picture's noise, above 0", noise=noise
         )
-    fits = [_fit_spectrum(values[..., channel], lattice, channel) for channel in range(values.shape[-1])]
+    fits = [_fit_spectrum(values[..., channel], lattice, channel, noise) for channel in range(values.shape[-1])]
     falloffs, squares, leasts, scales = zip(*fits, strict=True)
     variances = np.maximum(values.var((0, 1)), TINY).tolist()
     strengths = tuple(scale / variance for scale, variance in zip(scales, variances, strict=True))
@@ -79,8 +79,11 @@ def photo_statistics(values: np.ndarray, lattice: Lattice, noise: float | None =
     return PhotoStatistics(low, high, falloffs, strengths)
 
 
-def _fit_spectrum(plane: np.ndarray, lattice: Lattice, channel: int) -> tuple[float, ...]:
-    """Return the falloff, the square of the noise, the least power of the scene's share, and the scene's variance."""
+def _fit_spectrum(plane: np.ndarray, lattice: Lattice, channel: int, noise: float | None) -> tuple[float, ...]:
+    """Return the falloff, the square of the noise, the least power of the scene's share, and the scene's variance.
+
+    All that a known ``noise`` does not explain is the scene's.
+    """
     power = _mean_spectrum(plane, max(SPECTRUM_SIDE, 4 * lattice.half))
     shape = power[1]
     transfers = (
@@ -94,11 +97,13 @@ def _fit_spectrum(plane: np.ndarray, lattice: Lattice, channel: int) -> tuple[fl
     fits = []
     for falloff in FALLOFFS:
         shape_of = (passed * _prior(shape, falloff))[used]
-        scale, square = float(np.median(found) / np.median(shape_of)), float(np.quantile(found, 0.02))
+        scale = float(np.median(found) / np.median(shape_of))
+        square = float(np.quantile(found, 0.02)) if noise is None else noise**2
         for _ in range(FIT_ROUNDS):  # multiplicative steps of Févotte, Bertin and Durrieu 2009, eq. 26
             model = scale * shape_of + square
             scale *= sqrt(float((found * shape_of / model**2).sum() / (shape_of / model).sum()))
-            square *= sqrt(float((found / model**2).sum() / (1 / model).sum()))
+            if noise is None:
+                square *= sqrt(float((found / model**2).sum() / (1 / model).sum()))
         model = scale * shape_of + square
         likelihood = float((np.log(model) + found / model).sum())
         fits.append((likelihood, falloff, square, scale * float(shape_of.min()), scale))
@@ -309,11 +314,6 @@ def estimated_noise(values: np.ndarray) -> float:
     both = np.abs(down[:, :-2] - 2 * down[:, 1:-1] + down[:, 2:])
     quiet = [_quiet(plane) for plane in np.moveaxis(both, -1, 0)]
     return MAD * float(np.sqrt(np.mean(np.square(quiet)))) / MASK_NORM
-
-
-def photo_noise(values: np.ndarray) -> float:
-    """Return `estimated_noise`, at least LEAST_NOISE: what rounding to whole numbers adds, and demosaicing hides."""
-    return max(LEAST_NOISE, estimated_noise(values))
 
 
 def _quiet(plane: np.ndarray) -> float:

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from p2sf.arguments import check_arguments, real_array
 from p2sf.errors import RequestError
-from p2sf.image.deblur import photo_statistics, wiener, wiener_by_depth
+from p2sf.image.deblur import PhotoStatistics, photo_statistics, wiener, wiener_by_depth
 from p2sf.image.exposure import expose
 from p2sf.image.form import Forming, check_picture, plan_lattice, planned_depths
 from p2sf.image.form import form_image as form
@@ -157,10 +157,18 @@ def sharpen_planned(
 ) -> np.ndarray:
     """Return a photo (rows, columns, channels) sharpened by a plan's kernels, at one depth or at those of a map."""
     if depth_mm is None:
-        lattice = plan_lattice(planned, planned.vergences[0], watch)
-        return wiener(values, lattice, photo_statistics(values, lattice, noise), watch)
+        return sharpen_one_depth(planned, values, noise, watch)[0]
     planned.scene.check_depths(depth_mm)
     depths = planned_depths(planned, depth_mm, values.shape[:2])
     return wiener_by_depth(
         values, depths, lambda number: plan_lattice(planned, planned.vergences[number], watch), noise, watch
     )
+
+
+def sharpen_one_depth(
+    planned: Plan, values: np.ndarray, noise: float | None, watch: Progress | None = None
+) -> tuple[np.ndarray, PhotoStatistics]:
+    """Return a photo (rows, columns, channels) sharpened by the kernels of a plan's far end, and what that assumes."""
+    lattice = plan_lattice(planned, planned.vergences[0], watch)
+    about = photo_statistics(values, lattice, noise)
+    return wiener(values, lattice, about, watch), about

@@ -59,7 +59,7 @@ class Photo:
         if not self.transparent:
             return None
         return Message(
-            "{share:.2g} % of the picture is transparent, which is left out: its colours count as opaque; put it on a "
+            "{share:.3g} % of the picture is transparent, which is left out: its colours count as opaque; put it on a "
             "background first if that is not meant",
             share=100 * self.transparent,
         )

@@ -6,11 +6,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from p2sf.camera import Camera
 from p2sf.cli import main
 from p2sf.cli.scenes import depth_map
 from p2sf.errors import RequestError
+from p2sf.image import plan_lattice
+from p2sf.image.deblur import photo_statistics
 from p2sf.io.photo_files import read_photo, write_photo
 from p2sf.scene import read_scene
+from tests.long.sharpening import texture
 
 SCENE = """
 rtol = 0.1
@@ -91,11 +95,28 @@ def test_a_photo_is_sharpened(tmp_path, capsys):
         "rows": 30,
         "columns": 40,
         "encoding": "linear",
+        "least_noise": 0.01,
         "noise": 0.01,
     }
     assert read_photo(out).values[..., 0] == pytest.approx(np.full((30, 40), 0.25), abs=1e-3)
     assert main(arguments) == 2 and "--pixel-um" in capsys.readouterr().err
     assert main([*arguments[:-1], str(photo), "--pixel-um", "20"]) == 2 and "--output" in capsys.readouterr().err
+
+
+def test_the_noise_that_sharpening_assumes_is_printed(tmp_path, capsys):
+    """Of a texture the noise is known between two limits only; the estimate alone is another number."""
+    photo, values = tmp_path / "photo.tif", texture(80).astype(np.float32)[..., None]
+    write_photo(photo, values, "linear", "float")
+    camera = Camera("achromat_f6", focus_mm=4000, pixel_um=20)
+    planned = camera.picture_plan(values, rtol=0.2)
+    told = photo_statistics(values, plan_lattice(planned, planned.vergences[0]))
+    assert told.low < 0.5 * told.high
+    arguments = ["sharpen", "achromat_f6", str(photo), "--focus-mm", "4000", "--rtol", "0.2", "--pixel-um", "20"]
+    assert main([*arguments, "-o", str(tmp_path / "sharp.tif"), "--json"]) == 0
+    printed = json.loads(capsys.readouterr().out)
+    assert (printed["least_noise"], printed["noise"]) == pytest.approx((told.low, told.high), rel=1e-6)
+    assert main([*arguments, "-o", str(tmp_path / "sharp.tif")]) == 0
+    assert f"noise {told.low:.2g} to {told.high:.2g} of white" in capsys.readouterr().out
 
 
 def test_depths_come_from_a_float_tiff(scene, tmp_path, capsys):

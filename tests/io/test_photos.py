@@ -300,7 +300,7 @@ def test_the_shape_is_told_without_reading_the_picture(tmp_path, ending):
 
 
 @pytest.mark.parametrize("kind", ["png", "png16", "tif", "exr", "palette"])
-@pytest.mark.parametrize("clear", [0, 5])
+@pytest.mark.parametrize("clear", [0, 5, 20])
 def test_transparency_that_is_left_out_is_told(tmp_path, kind, clear):
     """Colours are those of the file, whatever its alpha, and the share of pixels that are not opaque is counted."""
     ending = {"png16": ".png", "palette": ".png"}.get(kind, f".{kind}")
@@ -335,6 +335,7 @@ def test_transparency_that_is_left_out_is_told(tmp_path, kind, clear):
     found = read_photo(path, "linear")
     np.testing.assert_allclose(found.values, np.broadcast_to(1 / 3, (4, 5, 3)), atol=1e-6)
     assert found.transparent == clear / 20 and (found.caution is None) == (clear == 0)
+    assert f"{5 * clear} %" in str(found.caution) or not clear
 
 
 @pytest.mark.parametrize(

@@ -146,8 +146,7 @@ def test_sharpening_by_the_right_psfs_helps_and_by_the_axis_psf_does_not():
     blurred, own, axis = (told[name].values for name in ("blurred", "own", "axis"))
     assert own["psnr"] > blurred["psnr"] + 3  # what knowing the PSF buys, in dB
     assert axis["psnr"] < own["psnr"] - 3
-    # By SSIM a sharpened star is no better: in flat parts the noise that is let through counts as lost structure.
-    assert 1 > own["ssim"] > 0.9 * blurred["ssim"] > 0
+    assert 1 > own["ssim"] > blurred["ssim"] > 0 and own["ssim"] > axis["ssim"]
     assert [str(line) for line in quick.alike] == [f"blurred: {told['blurred']}", f"sharpened: {told['own']}"]
     levels = (srgb_from_linear(np.clip(x, 0, 1)) for x in (quick.after, scene_values("siemens_star", (ROWS, COLUMNS))))
     assert own["ssim"] == pytest.approx(ssim(*levels), abs=1e-6)

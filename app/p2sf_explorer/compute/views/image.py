@@ -169,7 +169,10 @@ SHARPENED = ("sharpened", "axis")  # of what can be shown
 TAKEN = "taken"  # of what can be shown: the photo was taken through the lens, and is sharpened
 NO_PHOTO = "choose a photo that was taken through this lens by Photo…, or drop it here: a chart was not"
 NO_PIXEL = "choose how large the pixels of the camera are; To Image in Measured states those of the measured picture"
-FILTERED = "Wiener's filter by the PSFs of this lens, for noise of {noise:.1%} of white, as estimated from the photo."
+FILTERED = (
+    "Wiener's filter by the PSFs of this lens, for noise between {least:.2%} and {most:.2%} of white: "
+    "what the photo tells."
+)
 TOO_MANY = "the photo has {count:.3g} megapixels, of which {most:g} at most are sharpened at once; choose a part of it"
 CELL_PX = 24  # of the map of PSFs, at least
 ROWS_AT_ONCE, FINEST = 64, 2**16 - 1
@@ -401,7 +404,7 @@ def _sharpen(
         seconds=perf_counter() - begun,
         headline=count,
         notes=(
-            (Message("Sharpening"), Message(FILTERED, noise=told.high)),
+            (Message("Sharpening"), Message(FILTERED, least=told.low, most=told.high)),
             *transparency(request.photo, own_shape(request.photo)),
             (Message("PSFs"), product),
             *measured,

@@ -24,7 +24,7 @@
 <message><source>No maps of this lens</source><translation>Keine Karten dieses Objektivs</translation></message>
 <message><source>Show the Cooke triplet</source><translation>Das Cooke-Triplett zeigen</translation></message>
 <message><source>Undo brings this lens back</source><translation>Rückgängig holt dieses Objektiv zurück</translation></message>
-<message><source>{share:.2g} % of the picture is transparent, which is left out: its colours count as opaque; put it on a background first if that is not meant</source><translation>{share:.2g} % des Bildes sind durchsichtig, was unbeachtet bleibt: Die Farben gelten als deckend; wenn das nicht gemeint ist, das Bild zuerst auf einen Hintergrund legen</translation></message>
+<message><source>{share:.3g} % of the picture is transparent, which is left out: its colours count as opaque; put it on a background first if that is not meant</source><translation>{share:.3g} % des Bildes sind durchsichtig, was unbeachtet bleibt: Die Farben gelten als deckend; wenn das nicht gemeint ist, das Bild zuerst auf einen Hintergrund legen</translation></message>
 <message><source>{why}. Drop a lens file on the window, or take one with maps.</source><translation>{why}. Eine Objektivdatei auf das Fenster ziehen oder ein Objektiv mit Karten nehmen.</translation></message>
 <message><source>a picture of light up to {light:g} has noise of {noise:.2g} there; errors up to {part:.0%} of the noise are hidden by it, and larger than what was asked for</source><translation>ein Bild mit Licht bis {light:g} hat dort ein Rauschen von {noise:.2g}; Fehler bis zu {part:.0%} des Rauschens verschwinden darin, und das ist mehr als verlangt</translation></message>
 <message><source>no chief ray lands {height:g} mm from the axis of the sensor, where the file has a field; state it as an angle</source><translation>kein Hauptstrahl trifft {height:g} mm von der Achse auf den Sensor, wo die Datei einen Feldpunkt hat; ihn als Winkel angeben</translation></message>
@@ -1225,7 +1225,7 @@
 <message><source>Which sum</source><translation>Welche Summe</translation></message>
 <message><source>Why the picture is computed this way: the decisions of the plan, each with its error</source><translation>Warum das Bild so berechnet wird: die Entscheidungen des Plans, jede mit ihrem Fehler</translation></message>
 <message><source>Why…</source><translation>Warum …</translation></message>
-<message><source>Wiener's filter by the PSFs of this lens, for noise of {noise:.1%} of white, as estimated from the photo.</source><translation>Wiener-Filter mit den PSFs dieses Objektivs, für ein Rauschen von {noise:.1%} von Weiß, wie aus dem Foto geschätzt.</translation></message>
+<message><source>Wiener's filter by the PSFs of this lens, for noise between {least:.2%} and {most:.2%} of white: what the photo tells.</source><translation>Wiener-Filter mit den PSFs dieses Objektivs, für ein Rauschen zwischen {least:.2%} und {most:.2%} von Weiß: was das Foto verrät.</translation></message>
 <message><source>Window</source><translation>Fenster</translation></message>
 <message><source>Working f-number</source><translation>Wirksame Blendenzahl</translation></message>
 <message><source>Working f-number 1/(2 NA) at this depth.</source><translation>Wirksame Blendenzahl 1/(2 NA) bei diesem Abstand.</translation></message>
