@@ -271,18 +271,28 @@ def flatness_of(values: np.ndarray) -> float:
 
 
 def _compared(lens: Lens, source: Source, clip: bool, half_um: float) -> float:
-    """Return what plane waves may miss by a comparison of two sums; infinite where it takes too many nodes, or none."""
+    """Return what plane waves may miss by a comparison of two sums; infinite where it takes too many nodes, or none.
+
+    Where rays end it would have to follow rims, which takes seconds.
+    """
+    if not _smooth(lens, source, clip):
+        return inf
     try:
         return COMPARED * plane_wave_error(lens, source, clip, half_um)
     except P2SFError:
         return inf
 
 
+def _smooth(lens: Lens, source: Source, clip: bool) -> bool:
+    """Return whether all rays of the pupil arrive and nothing stands in it, so that few rays describe the rest."""
+    return not clip and mask_seen(lens, source).clear and all_reach(lens, source)
+
+
 def _sphere_is_affordable(lens: Lens, source: Source, clip: bool, window: tuple[int, float] | None) -> bool:
     """Return whether a sum of spherical waves with one column takes AUTO_SECONDS at most; False without a sphere."""
-    smooth = not clip and mask_seen(lens, source).clear and all_reach(lens, source)
-    most = AUTO_SECONDS / (2 * TERM_SECONDS) if smooth else AUTO_SECONDS * LAST_PASS / RAY_SECONDS
     try:
+        smooth = _smooth(lens, source, clip)
+        most = AUTO_SECONDS / (2 * TERM_SECONDS) if smooth else AUTO_SECONDS * LAST_PASS / RAY_SECONDS
         half = half_window_um(lens, source) if window is None else window[0] * window[1] / 2
         sphere = exit_sphere(lens, source)
         return sphere is not None and nodes_from(lens, source, hypot(half, half), sphere) <= most
