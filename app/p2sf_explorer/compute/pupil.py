@@ -8,6 +8,7 @@ from p2sf_explorer.state.scales import significant
 
 ALIKE = 4.0  # of the variance: the focus of third order then is that of the rays up to a factor of two
 LEAST_CAUSE = 0.2  # of the focus that a coefficient makes if it is named
+SECOND = 0.2  # of the variance, from which on the second largest part is named
 MARECHAL = 1 / 14**2  # waves²: a Strehl ratio of 0.8 (Born & Wolf 1999, §9.3)
 
 
@@ -64,9 +65,26 @@ def dominant(pupil: WavefrontMap, coefficients: Coefficients) -> Message:
             shift = Number(significant(best_focus_um(coefficients), 2))
             return Message(sentence, percent=percent, causes=causes, shift=shift)
         return Message("Refocusing would remove {percent:.0f} % of the wavefront variance", percent=percent)
+    other, more = _second(pupil, coefficients, name)
+    values = {"term": term, "percent": percent}
+    if more < SECOND * total:
+        if percent > 50:
+            return Message("Mostly {term}: {percent:.0f} % of the wavefront variance", **values)
+        return Message("Mainly {term}: {percent:.0f} % of the wavefront variance", **values)
+    values |= {"other": other, "more": 100 * more / total}
     if percent > 50:
-        return Message("Mostly {term}: {percent:.0f} % of the wavefront variance", term=term, percent=percent)
-    return Message("Mainly {term}: {percent:.0f} % of the wavefront variance", term=term, percent=percent)
+        return Message("Mostly {term}: {percent:.0f} % of the wavefront variance; {other}: {more:.0f} %", **values)
+    return Message("Mainly {term}: {percent:.0f} % of the wavefront variance; {other}: {more:.0f} %", **values)
+
+
+def _second(pupil: WavefrontMap, coefficients: Coefficients, first: str) -> tuple[Message, float]:
+    """Return what blurs most but ``first``, and its variance, waves²; of defocus the coefficients that make it too."""
+    others = {name: part for name, part in pupil.parts.items() if name != first}
+    name = max(others, key=others.__getitem__)
+    causes = focus_causes(coefficients, others[name]) if name == "defocus" and others[name] else ()
+    if causes:
+        return Message("defocus by {causes}", causes=causes), others[name]
+    return Message(name), others[name]
 
 
 def best_focus_um(c: Coefficients) -> float:

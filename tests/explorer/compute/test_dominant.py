@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from p2sf.messages import Message
-from p2sf.metrics.wavefront_map import WavefrontMap, disc
+from p2sf.metrics.wavefront_map import WavefrontMap, disc, map_of, samples_of_coefficients
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.raytrace.pencil import displayed_opd, pencil, pupil_grid
 from p2sf_explorer.compute.live import live
@@ -174,3 +174,14 @@ def test_below_marechals_limit_nothing_is_to_be_removed(rms, limited):
     waves = WavefrontMap(np.zeros((2, 2)), rms, 0.2, "exact rays", parts={"defocus": rms**2})
     values = dominant(waves, live(new_state(method="seidel")).setup.coefficients).values
     assert ("rms" in values) == limited and ("percent" in values) != limited
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_astigmatism_alone_is_said_to_be_a_third_defocus(sign):
+    """W22·η² is W22/2·ρ² and W22/2·(η² − ξ²): variances W22²/48 and W22²/24 (Mahajan 1991, table 2-1)."""
+    setup = live(new_state(method="seidel")).setup
+    alone = replace(ZERO, w22=float(sign))
+    waves = map_of(setup.lens, setup.source, samples_of_coefficients(alone, "settled"), "settled", "six coefficients")
+    values = dominant(waves, alone).values
+    assert str(values["term"]) == "astigmatism" and values["percent"] == pytest.approx(200 / 3, abs=0.5)
+    assert str(values["other"]) == "defocus by W22" and values["more"] == pytest.approx(100 / 3, abs=0.5)

@@ -11,7 +11,7 @@ from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import PsfOptions, render
 from p2sf_explorer.compute.framing import light_rings
-from p2sf_explorer.compute.live import Live, live
+from p2sf_explorer.compute.live import Live, live, with_views
 from p2sf_explorer.compute.matrix import pictures
 from p2sf_explorer.compute.matrix.pictures import HELD, matrix, previews, settle
 from p2sf_explorer.compute.matrix.points import matrix_request, nearest
@@ -19,6 +19,7 @@ from p2sf_explorer.compute.matrix.tiles import figures, peaks, scales, worst
 from p2sf_explorer.compute.sampled import in_window
 from p2sf_explorer.compute.setup import default_state, paraxial_setup
 from p2sf_explorer.compute.views import rays
+from p2sf_explorer.state.panels import REGISTRY, view_of
 from p2sf_explorer.state.state import change, new_state
 from tests.support.waves import rms_about_plane
 
@@ -240,3 +241,20 @@ def test_a_few_pictures_are_all_renewed_in_each_frame():
     later = moved(seen, 4.5)
     old, new = (np.array(each.views["matrix"].tiles, dtype=object) for each in (seen, later))
     assert (old != new).all() and not later.views["matrix"].waiting
+
+
+@pytest.mark.parametrize(("name", "field_deg", "method"), [("cooke_triplet", 14.0, "auto"), ("tessar", 10.0, "seidel")])
+def test_the_radius_of_a_state_is_that_of_profiles_and_library_and_that_of_a_window_is_named(name, field_deg, method):
+    """Of all light by the pupil: samples of a window state 18.3 µm of the first, whose R80 is 18.5 µm."""
+    shown = change(default_state(name), field_deg=field_deg, method=method)
+    request = request_of(shown, matrix_fields_deg=(field_deg, 0.0), matrix_rows=2, matrix_columns=2)
+    state, tile = each(request, worked(request)[0])[0]
+    settled = tile.figure
+    answer = live(state)
+    profiles = with_views(answer, {"profiles": view_of(next(e for e in REGISTRY if e.key == "profiles"))}, 0.0)
+    setup = paraxial_setup(state)
+    library = p2sf.encircled_energy(setup.lens, setup.source, "seidel" if method == "seidel" else "traced").radius_80_um
+    assert settled.template == "R80 {radius} µm" and float(str(settled.values["radius"])) == float(f"{library:.3g}")
+    assert profiles.views["profiles"].radii_um[1] == pytest.approx(library, rel=1e-3)
+    moving = previews(request)[0][0].figure
+    assert "in view" in moving.template

@@ -8,8 +8,8 @@ from PySide6.QtWidgets import QApplication
 
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.metrics.window import radius_of_energy
 from p2sf.psf.methods import render
+from p2sf_explorer.compute.framing import light_rings
 from p2sf_explorer.compute.matrix.pictures import radius_figure
 from p2sf_explorer.compute.matrix.points import nearest
 from p2sf_explorer.panels.matrix.tile_charts import LightChart, arrange
@@ -258,7 +258,7 @@ def test_curves_have_a_legend_and_pictures_have_none(window, panel, qtbot):
 
 @pytest.mark.parametrize("pixel_um", [0.5, 1.7])
 def test_radii_have_the_digits_of_the_profiles(pixel_um):
-    """Three significant digits, as *Profiles* writes R80 of the same light."""
+    """Three significant digits, as *Profiles* writes R80."""
     psf = render(find_lens("double_gauss_28"), Source(field_deg=7), "fitted", pixels=256, pixel_um=pixel_um)
-    radius = float(radius_of_energy(psf, 0.8))
-    assert str(radius_figure(psf).values["radius"]) == f"{radius:.3g}"
+    rings = light_rings(psf.values, psf.pixel_um)
+    assert str(radius_figure(psf, rings).values["radius"]) == f"{rings.radius_of(0.8):.3g}"

@@ -12,8 +12,8 @@ from p2sf.errors import GeometryError, P2SFError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message, Number
+from p2sf.metrics.measures import energy_in
 from p2sf.metrics.perfect import airy_radius_um
-from p2sf.metrics.window import radius_of_energy
 from p2sf.paraxial.seidel import check_seidel
 from p2sf.psf.cost import nodes_beyond
 from p2sf.psf.geometric import geometric_psf
@@ -29,7 +29,7 @@ from p2sf_explorer.compute.framing import LightRings, light_rings
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.matrix.points import MatrixRequest, matrix_request, nearest
 from p2sf_explorer.compute.matrix.tiles import Light, Lines, MatrixTile, SpotTile, Tiles, WavefrontTile, refused_tile
-from p2sf_explorer.compute.measured import MeasureRequest
+from p2sf_explorer.compute.measured import MeasureRequest, measured_parts
 from p2sf_explorer.compute.method import (
     ALONE,
     NO_REASON,
@@ -59,7 +59,7 @@ SHARP = 0.1  # Strehl ratio below which the radius of the light says more
 SHARP_ENOUGH = 8  # samples per λ/NA from which on the highest one is the peak to some 8 %
 ALMOST = 0.7  # of it, which is below cos²(2π/8√2): so low samples have no sharp peak between them (`psf.peak`)
 MOST_LIGHT = 0.97  # share of all light from which on a window's counts as all
-HELD = 0.8  # share of the window's light within the radius that is quoted
+HELD = 0.8  # share of the light within the radius that is quoted
 BY_RAYS, BY_COEFFICIENTS = "exact rays", "six coefficients"
 IN_A_FRAME = ("psf", "pupil", "spot", "ray_fan", "opd_fan")  # what has a preview
 IN_FRAME = 4  # PSFs that are all renewed in each frame; of more,
@@ -353,7 +353,7 @@ def _light(place: MatrixPoint, psf: Psf, settled: bool) -> MatrixTile:
     sharpness = strehl_figure(psf, na)
     return MatrixTile(
         content,
-        radius_figure(psf, None if settled else rings),
+        (pupil_radius(place) if settled and psf.method != "geometric" else None) or radius_figure(psf, rings),
         psf.method,
         psf.predicted_error,
         settled,
@@ -372,13 +372,28 @@ def strehl_figure(psf: Psf, na: float) -> Message | None:
     return Message("Strehl {value}", value=Number(significant(float(psf.strehl), 2)))
 
 
-def radius_figure(psf: Psf, rings: LightRings | None = None) -> Message:
-    """Return R80 of the window's light, by its ``rings`` where they do; its share of all light where that is less."""
-    found = rings.radius_of(HELD) if rings else float(radius_of_energy(psf, HELD))
-    radius = Number(significant(found, 3))
+def pupil_radius(place: MatrixPoint) -> Message | None:
+    """Return R80 of all light of the pupil, as *Profiles* has it; None where its energy is not known."""
+    try:
+        found = energy_in(measured_parts(_measured(place)), "").radius_80_um
+    except P2SFError:
+        return None
+    return Message("R80 {radius} µm", radius=Number(significant(found, 3))) if np.isfinite(found) else None
+
+
+def radius_figure(psf: Psf, rings: LightRings) -> Message:
+    """Return R80 of the light in the window, by rings of its samples, and the share of all light that is."""
+    radius = Number(significant(rings.radius_of(HELD), 3))
     if psf.energy is not None and psf.energy < MOST_LIGHT:
         return Message("R80 {radius} µm (of {percent:.0f} % in view)", radius=radius, percent=100 * float(psf.energy))
-    return Message("R80 {radius} µm", radius=radius)
+    return Message("R80 {radius} µm (in view)", radius=radius)
+
+
+def _measured(place: MatrixPoint) -> MeasureRequest:
+    """Return what is to be measured at a point: the six coefficients where they make its picture, else exact rays."""
+    setup, clip = place.setup, place.state.optics.clip and not place.six
+    six = tuple(float(value) for value in vars(setup.coefficients).values()) if place.six else ()
+    return MeasureRequest(setup.lens, setup.source, clip, six, by_hand=setup.altered)
 
 
 def _waves(place: MatrixPoint, quality: str) -> MatrixTile:
@@ -430,9 +445,7 @@ def _fan(place: MatrixPoint, trace: Callable[[Lens, SourceLike, bool, str], Fan]
 
 def _contrast(place: MatrixPoint, pixel_um: float) -> MatrixTile:
     """Return the contrast of both patterns up to the cut-off; figure: the smaller at the sensor's Nyquist frequency."""
-    setup, clip = place.setup, place.state.optics.clip and not place.six
-    six = tuple(float(value) for value in vars(setup.coefficients).values()) if place.six else ()
-    found = contrast_of(MeasureRequest(setup.lens, setup.source, clip, six))
+    found = contrast_of(_measured(place))
     lines = {"perfect lens": found.perfect, "sagittal": found.sagittal, "tangential": found.tangential}
     nyquist = UM_PER_MM / (2 * pixel_um)
     both = (np.interp(nyquist, found.frequency_per_mm, line, right=0.0) for line in (found.sagittal, found.tangential))

@@ -663,6 +663,7 @@
 <message><source>MTF: the contrast that remains of a sine pattern, computed by autocorrelation of the pupil, from all light. Grey: the same pupil without aberration. Thin, if something stands in the stop: the clear pupil without aberration.</source><translation>MTF: Kontrast, der von einem Sinusmuster bleibt, Autokorrelation der Pupille über alles Licht, ohne Fenster; grau: dieselbe Pupille ohne Aberration; dünn daneben, wo etwas in der Blende steht: die freie Pupille ohne Aberration.</translation></message>
 <message><source>Macro lens f/3.8, 60 mm, with floating focus</source><translation>Makroobjektiv f/3,8, 60 mm, mit gleitender Gruppe</translation></message>
 <message><source>Magnification</source><translation>Abbildungsmaßstab</translation></message>
+<message><source>Mainly {term}: {percent:.0f} % of the wavefront variance; {other}: {more:.0f} %</source><translation>Am meisten {term}: {percent:.0f} % der Varianz der Wellenfront; {other}: {more:.0f} %</translation></message>
 <message><source>Mainly {term}: {percent:.0f} % of the wavefront variance</source><translation>Am meisten {term}: {percent:.0f} % der Varianz der Wellenfront</translation></message>
 <message><source>Make no plan; the coarse picture stays</source><translation>Nicht planen; das grobe Bild bleibt</translation></message>
 <message><source>Maksutov-Cassegrain f/15, 150 mm</source><translation>Maksutow-Cassegrain f/15, 150 mm</translation></message>
@@ -680,6 +681,7 @@
 <message><source>Misalign: what may be wrong with a built lens, in addition to what its file has. The sensor stays where it is. Choose a piece here, or click it in the layout or the lens table. Decentres are in mm; tilts in degrees, about the piece's first vertex, right-handed. A double-click resets a value.</source><translation>Dejustieren: was an einem gebauten Objektiv nicht stimmen kann, zusätzlich zu dem, was seine Datei hat; der Sensor bleibt, wo er ist. Ein Teil hier wählen, oder im Aufbau oder in der Objektivtabelle anklicken. Dezentrierungen in mm, Kippungen in Grad um den ersten Scheitel des Teils, rechtshändig. Ein Doppelklick setzt eine zurück.</translation></message>
 <message><source>Misalignment</source><translation>Dejustierung</translation></message>
 <message><source>More</source><translation>Mehr</translation></message>
+<message><source>Mostly {term}: {percent:.0f} % of the wavefront variance; {other}: {more:.0f} %</source><translation>Meist {term}: {percent:.0f} % der Varianz der Wellenfront; {other}: {more:.0f} %</translation></message>
 <message><source>Mostly {term}: {percent:.0f} % of the wavefront variance</source><translation>Meist {term}: {percent:.0f} % der Varianz der Wellenfront</translation></message>
 <message><source>Move the sensor to where the RMS of W over the pupil is smallest (Ctrl+F).</source><translation>Den Sensor dorthin setzen, wo der RMS von W über die Pupille am kleinsten ist (Strg+F).</translation></message>
 <message><source>Mute: this term counts as zero (M)</source><translation>Stumm: dieser Term zählt als null (M)</translation></message>
@@ -1456,6 +1458,7 @@
 <message><source>decentre y {amount} mm</source><translation>Dezentrierung y {amount} mm</translation></message>
 <message><source>decentre y, surface {where}</source><translation>Dezentrierung y, Fläche {where}</translation></message>
 <message><source>decimal separator</source><translation>,</translation></message>
+<message><source>defocus by {causes}</source><translation>Defokus durch {causes}</translation></message>
 <message><source>defocus</source><translation>Defokus</translation></message>
 <message><source>defocus grows with 1/distance, so nodes stand at equal steps of it</source><translation>die Defokussierung wächst mit 1/Abstand, daher stehen die Knoten in gleichen Schritten davon</translation></message>
 <message><source>degrees</source><translation>Grad</translation></message>
@@ -2868,6 +2871,7 @@
 <message><source>Prescription</source><translation>Konstruktionsdaten</translation></message>
 <message><source>Report as PDF (*.pdf);;Report as HTML (*.html);;Report as JSON (*.json)</source><translation>Bericht als PDF (*.pdf);;Bericht als HTML (*.html);;Bericht als JSON (*.json)</translation></message>
 <message><source>Report as PDF, HTML or JSON…</source><translation>Bericht als PDF, HTML oder JSON …</translation></message>
+<message><source>R80 {radius} µm (in view)</source><translation>R80 {radius} µm (im Bild)</translation></message>
 <message><source>Spot diagrams</source><translation>Punktdiagramme</translation></message>
 <message><source>Spot diagrams, ±{side:.3g} µm</source><translation>Punktdiagramme, ±{side:.3g} µm</translation></message>
 <message><source>Writing the report</source><translation>Der Bericht wird geschrieben</translation></message>
