@@ -30,6 +30,7 @@ from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import chooser, select
 from p2sf_explorer.widgets.command import Command
+from p2sf_explorer.widgets.typed import typed
 from p2sf_explorer.widgets.value_edit import ValueEdit
 
 FILMS = "Animated GIF (*.gif);;MP4 film (*.mp4);;Numbered PNG frames (*.png)"
@@ -178,7 +179,7 @@ class PlayBar(QFrame):
 
         def ends() -> dict[str, object]:
             pairs = ((first, found.first), (last, found.last))
-            return {"playback_range": tuple(old if text is None else found.read(text) for text, old in pairs)}
+            return {"playback_range": tuple(old if text is None else found.read(typed(text)) for text, old in pairs)}
 
         self._try(ends)
 
@@ -256,4 +257,4 @@ class PlayBar(QFrame):
 
 def seconds(text: str) -> float:
     """Return the seconds a person typed; P2SFError otherwise."""
-    return read_number(text.replace("s", " "), "duration")
+    return read_number(typed(text.replace("s", " ")), "duration")

@@ -14,6 +14,7 @@ from p2sf_explorer.state.state import entry
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Chooser
 from p2sf_explorer.widgets.scrub import Scrub, claimed, notches
+from p2sf_explorer.widgets.typed import typed
 
 
 class PlayButton(QToolButton):
@@ -60,7 +61,9 @@ class NumberBox(QDoubleSpinBox):
         edit.setObjectName("qt_spinbox_lineedit")  # as Qt's own, which is no part of its own to a screen reader
         self.setLineEdit(edit)
         self.setKeyboardTracking(False)
-        self.setLocale(QLocale(QLocale.Language.German if decimal_separator() == "," else QLocale.Language.C))
+        language = QLocale(QLocale.Language.German if decimal_separator() == "," else QLocale.Language.C)
+        language.setNumberOptions(QLocale.NumberOption.RejectGroupSeparator | QLocale.NumberOption.OmitGroupSeparator)
+        self.setLocale(language)
 
 
 class ValueEdit(ShortField):
@@ -212,7 +215,7 @@ class MicronEdit(QWidget):
 
     def _commit(self, text: str) -> None:
         try:
-            self._store.update(**{self._key: read_number(text, self._label.lower(), MICRONS)})
+            self._store.update(**{self._key: read_number(typed(text), self._label.lower(), MICRONS)})
         except P2SFError as error:
             self._store.refused.emit(error)
         self.show_value(entry(self._store.state, self._key))
@@ -299,6 +302,6 @@ class ValueList(QWidget):
 
     def _commit(self, text: str) -> None:
         try:
-            self.listed.emit(read_list(text, self._read))
+            self.listed.emit(read_list(text, lambda item: self._read(typed(item))))
         except P2SFError as error:
             self.refused.emit(error)

@@ -16,6 +16,7 @@ from p2sf_explorer.state.state import State, entry
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.readout import Readout
 from p2sf_explorer.widgets.slider import STEPS, Slider
+from p2sf_explorer.widgets.typed import typed
 from p2sf_explorer.widgets.value_edit import PlayButton, ValueEdit
 
 
@@ -159,7 +160,7 @@ class QuantityRow(QWidget):
 
     def _on_text(self, text: str) -> None:
         try:
-            value = self.quantity.typed(text, self._limits) if self._limits else self.quantity.read(text)
+            value = self.quantity.typed(typed(text), self._limits) if self._limits else self.quantity.read(typed(text))
         except P2SFError as error:
             self._store.refused.emit(error)
             self.edit.set_text(self.edit.last)

@@ -17,7 +17,7 @@ from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.panels.solid import SolidPanel
 from p2sf_explorer.scene3d import opengl_probe as probe
 from p2sf_explorer.state.panels import REGISTRY
-from p2sf_explorer.state.state import State, new_state
+from p2sf_explorer.state.state import State, entry, new_state
 from p2sf_explorer.widgets.readout import FactTable, Readout
 from p2sf_explorer.window.commands.command_palette import full_name
 from p2sf_explorer.window.commands.help import help_text
@@ -239,3 +239,24 @@ def test_one_command_begins_a_new_language(tmp_path, monkeypatch, capsys):
     assert f"{len(extract.required_texts()) - 1} texts missing in fr" in capsys.readouterr().out
     assert texts("fr") == {"Field": "Champ"}
     assert extract.main(["nonsense"]) == 2 and not (tmp_path / "nonsense.ts").exists()
+
+
+@pytest.mark.parametrize("key", ["depth_mm", "focus_mm"])
+def test_a_depth_that_can_mean_two_numbers_is_refused_with_both(german, key):
+    """1.500 mm was taken for 1.5 mm, while a point separates thousands in German."""
+    window, _ = german
+    before = entry(window.store.state, key)
+    said = []
+    window.store.refused.connect(said.append)
+    row = window.controls.rows[key]
+    row.edit.setText("1.500 mm")
+    row.edit.setModified(True)
+    row.edit._commit()
+    assert entry(window.store.state, key) == before
+    assert len(said) == 1 and "1500" in str(said[0]) and "1,500" in str(said[0])
+    for text, value in (("1500 mm", 1500.0), ("1500,5 mm", 1500.5), ("2,500 m", 2500.0)):
+        row.edit.setText(text)
+        row.edit.setModified(True)
+        row.edit._commit()
+        assert entry(window.store.state, key) == value
+    assert len(said) == 1

@@ -14,6 +14,7 @@ from p2sf_explorer.state.scales import (
     Stepped,
     Vergence,
     nice,
+    one_reading,
     read_distance,
     ticks,
     written_distance,
@@ -118,3 +119,16 @@ def test_ticks_are_short_and_say_their_values(decade, span):
 @pytest.mark.parametrize("mm", [9.99e9, 1e10, 3.844e11, 1e99, 1.7e308])
 def test_a_distance_is_never_longer_than_a_dozen_letters(mm):
     assert len(written_distance(mm)) <= 13 and read_distance(written_distance(mm)) == pytest.approx(mm, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("point", "text", "both"), [(",", "1.500 mm", ("1500", "1,500")), (".", "1,500", ("1500", "1.500"))]
+)
+def test_a_number_with_two_readings_is_refused_and_both_are_written(point, text, both):
+    """By the rule of both languages: one separates thousands by what the other has before decimals."""
+    with pytest.raises(P2SFError, match="two numbers") as said:
+        one_reading(text, point)
+    assert all(one in str(said.value) for one in both)
+    assert [read_distance(one_reading(one, point)) for one in both] == [1500.0, 1.5]
+    for plain in ("0.500", "0,500", "1.50", "1,5", "1500.25", "12.5000", f"1{point}500", "∞"):
+        assert one_reading(plain, point) == plain

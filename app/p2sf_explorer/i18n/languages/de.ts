@@ -2496,6 +2496,7 @@
 <message><source>{glass} (nd {nd:.5f})</source><translation>{glass} (nd {nd:.5f})</translation></message>
 <message><source>glass {name} is sold with different indices, and the file does not say by whom; {taken} is taken, from which {other} differs by {f_line:+.5f}, {d_line:+.5f}, {c_line:+.5f} at F, d and C</source><translation>Das Glas {name} wird mit verschiedenen Indizes verkauft, und die Datei sagt nicht, von wem; genommen ist {taken}, von dem {other} bei F, d und C um {f_line:+.5f}, {d_line:+.5f}, {c_line:+.5f} abweicht</translation></message>
 <message><source>"{name}" is not an object; correct it</source><translation>„{name}“ ist kein Objekt; berichtigen</translation></message>
+<message><source>"{text}" can mean two numbers; write {thousands} or {decimals}</source><translation>„{text}“ kann zwei Zahlen bedeuten; {thousands} oder {decimals} schreiben</translation></message>
 <message><source>Abbe number</source><translation>Abbe-Zahl</translation></message>
 <message><source>a lens lists its "{name}"; add them</source><translation>ein Objektiv führt „{name}“ auf; ergänzen</translation></message>
 <message><source>a row needs radius, thickness, index and housing radius; complete it</source><translation>eine Zeile braucht Radius, Dicke, Index und Fassungsradius; ergänzen</translation></message>

@@ -18,6 +18,7 @@ from p2sf_explorer.state.terms import NAMES, TERMS
 from p2sf_explorer.state.what_if import PRESETS, UNTOUCHED, Preset, alterations, of_preset, toggle, with_added
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
+from p2sf_explorer.widgets.typed import typed
 
 TIP = "Wavefront coefficients: the peak value of each term of W(ρ, θ) at this field, in waves."
 FREE_TIP = "Free pupil: only the six sliders make the wavefront, without the lens's own coefficients."
@@ -68,7 +69,7 @@ class CoefficientsPanel:
     def _type(self, term: str, text: str) -> None:
         """Set a coefficient to a typed number of waves, by adding the rest."""
         try:
-            waves = read_number(text, NAMES[term], {"": 1.0, "λ": 1.0})
+            waves = read_number(typed(text), NAMES[term], {"": 1.0, "λ": 1.0})
         except P2SFError as error:
             self._store.refused.emit(error)
             return

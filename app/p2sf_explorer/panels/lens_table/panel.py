@@ -34,8 +34,10 @@ from p2sf_explorer.state.state import State, change
 from p2sf_explorer.store.panel_store import PanelStore
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card, chooser
+from p2sf_explorer.widgets.typed import typed
 
 TIP = "Lens: one row per surface, in the order in which light meets them. Type into a cell; Ctrl+Z undoes it."
+LENGTHS = "radius", "thickness", "semi_diameter"
 FOCUS = (("off", "sensor stays"), ("paraxial", "keep paraxial focus"), ("rms", "keep best focus"))
 FOCUS_TIP = (
     "Keep in focus: while you edit the lens, the sensor follows its paraxial image, or goes to the smallest RMS of "
@@ -186,6 +188,12 @@ class LensTablePanel:
         self._size(theme)
 
     def _on_typed(self, number: int, column: str, text: str) -> None:
+        try:
+            if column in LENGTHS:
+                typed(text)
+        except P2SFError as error:
+            self._store.refused.emit(error)
+            return
         self._edit(with_value, number, column, text)
 
     def _choose_stop(self, index: QModelIndex) -> None:

@@ -16,6 +16,7 @@ from p2sf_explorer.state.state import State
 from p2sf_explorer.store.panel_store import PanelStore
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.slider import STEPS, Slider
+from p2sf_explorer.widgets.typed import typed
 from p2sf_explorer.widgets.value_edit import ValueEdit
 
 BENDING_TIP = (
@@ -75,7 +76,7 @@ class LensSlider(QWidget):
     def _type(self, text: str) -> None:
         self._start = self._store.state
         try:
-            self._set(read_number(text, self._title.lower(), UNITS.get(self._unit, PLAIN)))
+            self._set(read_number(typed(text), self._title.lower(), UNITS.get(self._unit, PLAIN)))
         except P2SFError as error:
             self._store.refused.emit(error)
         self.number.set_text(self._shown)

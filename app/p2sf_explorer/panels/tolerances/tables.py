@@ -23,6 +23,7 @@ from p2sf_explorer.state.build_errors import LARGEST
 from p2sf_explorer.state.scales import read_number, significant
 from p2sf_explorer.state.state import ToleranceView
 from p2sf_explorer.widgets.plain_table import PlainTable
+from p2sf_explorer.widgets.typed import typed
 
 WORST_TIP = "Worst builds: click to see one as A beside the lens as designed, B"
 HARMS = {"rms_waves": "adds, λ", "strehl": "takes", "mtf": "takes", "boresight_um": "shifts, µm"}
@@ -128,7 +129,7 @@ class ErrorTable(PlainTable):
         one = self._rows[item.row()]
         try:
             unit = unit_words(one.kind)
-            value = read_number(item.text(), "tolerance", {"": 1.0, unit: 1.0})
+            value = read_number(typed(item.text()), "tolerance", {"": 1.0, unit: 1.0})
             if not 0 <= value <= LARGEST[one.kind]:
                 raise P2SFError(
                     "the tolerance of {error} is {value:g}{unit}; give a number from 0 to {high:g}",

@@ -26,8 +26,17 @@ from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.store.worker import LatestWins
+from p2sf_explorer.widgets.typed import typed
 from p2sf_explorer.widgets.value_edit import ShortField
-from p2sf_explorer.window.commands.set_request import SetRequest, SetTexts, first_texts, holds_state, read_request, work
+from p2sf_explorer.window.commands.set_request import (
+    SEPARATOR,
+    SetRequest,
+    SetTexts,
+    first_texts,
+    holds_state,
+    read_request,
+    work,
+)
 
 FILES = (
     "NumPy (*.npz);;TIFF stack for ImageJ (*.tif);;FITS (*.fits);;MATLAB and Octave (*.mat);;Table of figures (*.csv)"
@@ -141,11 +150,18 @@ class SetDialog(QDialog):
         """Return what stands in the fields."""
         return SetTexts(**{key: edit.text() for key, edit in self.edits.items()})
 
+    def _typed(self) -> SetTexts:
+        """Return what stands in the fields; P2SFError where a number has two readings."""
+        for edit in self.edits.values():
+            for part in edit.text().split(SEPARATOR):
+                typed(part)
+        return self.texts()
+
     def _recount(self) -> None:
         """Show how many PSFs the lists ask for; nothing while a field is wrong."""
         self.note.clear()
         try:
-            shape = read_request(self._store.state, self.texts(), "set.npz").axes.shape
+            shape = read_request(self._store.state, self._typed(), "set.npz").axes.shape
         except P2SFError:  # said when the field is left, since nobody has typed a whole number at once
             self.count.clear()
             return
@@ -156,7 +172,7 @@ class SetDialog(QDialog):
     def _check(self) -> bool:
         """Say what is wrong with a field; return whether nothing is."""
         try:
-            read_request(self._store.state, self.texts(), "set.npz")
+            read_request(self._store.state, self._typed(), "set.npz")
         except P2SFError as error:
             self._say(said(error))
             return False
@@ -173,7 +189,7 @@ class SetDialog(QDialog):
     def write(self, path: str) -> bool:
         """Make the set and write it; return whether that has begun."""
         try:
-            request = read_request(self._store.state, self.texts(), path)
+            request = read_request(self._store.state, self._typed(), path)
         except P2SFError as error:
             self._say(said(error))
             return False
