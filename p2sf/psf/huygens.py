@@ -283,10 +283,13 @@ def first_counts(
     return counts
 
 
-def nodes_from(lens: Lens, source: Source, reach_um: float, sphere: ExitSphere) -> int:
-    """Return about how many nodes spherical waves take, the mirror half not counted, without following any rim."""
+def nodes_from(lens: Lens, source: Source, reach_um: float, sphere: ExitSphere | None = None) -> int:
+    """Return about how many nodes the waves from a sphere, or plane ones, take, without following any rim.
+
+    The mirror half is not counted.
+    """
     rays, points = coarse_pencil(lens, source, PROBE), coarse_points(lens.pupil_domain)
-    steep = _in_window(sphere.seen_from(rays)[0], *points, reach_um)
+    steep = _in_window(rays if sphere is None else sphere.seen_from(rays)[0], *points, reach_um)
     return _nodes(counts_for(with_slopes(steep, lens.mask, source.wavelength_um), reach_um))
 
 

@@ -38,6 +38,7 @@ from p2sf.psf.smooth_pupil import all_reach
 from p2sf.psf.spherical import (
     fresnel_number,
     half_window_um,
+    is_long_comparison,
     plane_wave_bound,
     plane_wave_error,
     spherical_pupil,
@@ -74,6 +75,7 @@ PITCH_RINGS = 8  # of rays, to estimate the extent of the light
 AUTO_SECONDS = 1.5  # that `auto` may take for a sum by its estimated cost: light per pixel takes two, 5 s with all else
 FIELD_SHARE = 0.01  # of the root of the 1 − R² allowed, that a sum of spherical waves may leave of the field
 PLANE_SHARE = 0.5  # of the allowed error that plane waves may use up: spherical ones take fifty times as long as a fit
+PLANE_NODES = 2.0  # times those of spherical waves, more than plane waves of the same blur take
 COMPARED = 2.0  # times their comparison, which holds for 99.7 % of states (python -m tests.long.spherical_prediction)
 FLATTEST = 1e6  # picture, above which the reference itself tells no R² of 0.99
 QUICK_LEVELS = LEVELS[:2]  # fitted to the same 64 rays
@@ -87,8 +89,9 @@ class Choice:
     ``tried_rays`` were traced for the choice and ``lost_rays`` of them did not reach the sensor. ``allowed_error`` is
     the tolerated 1 − R², less that of plane waves where it counts; ``seidel_error`` and ``fitted_error``, that of
     ``fitted_numbers``, are predictions, None where none was made. ``plane_wave_error``: predicted, of plane waves
-    against spherical ones. ``flatness``: by which errors count more in R² of a window than of a whole PSF. ``fit``: the
-    fit made for the choice, if the method would make the same.
+    against spherical ones. ``flatness``: by which errors count more in R² of a window than of a whole PSF. ``open``:
+    whether a comparison of more nodes might still find that plane waves do. ``fit``: the fit made for the choice, if
+    the method would make the same.
     """
 
     method: str
@@ -102,6 +105,7 @@ class Choice:
     fitted_numbers: int = 0
     plane_wave_error: float | None = None
     flatness: float = 1.0
+    open: bool = False
     fit: FittedPencil | None = field(default=None, repr=False, compare=False)
 
     @property
@@ -224,13 +228,15 @@ def choose(
     clip: bool = False,
     window: tuple[int, float] | None = None,
     flatness: float = 1.0,
+    quick: bool = False,
 ) -> Choice:
     """Return the cheapest method whose predicted R² is at least ``min_r2``, without running the reference.
 
     The prediction is for a ``window`` (samples a side, µm between samples) with a picture of this `flatness_of`, or for
     one that shows the whole PSF. Where the sum that keeps ``min_r2`` is estimated to take more than AUTO_SECONDS, the
-    best one within them is chosen, and its predicted error is above what is allowed. Raises GeometryError if the chief
-    ray does not reach the sensor, RequestError for a ``min_r2`` not below 1.
+    best one within them is chosen, and its predicted error is above what is allowed. A ``quick`` choice leaves a long
+    comparison `open`. Raises GeometryError if the chief ray does not reach the sensor, RequestError for a ``min_r2``
+    not below 1.
     """
     _check_min_r2(min_r2, BELOW_ONE)
     allowed = 1 - min_r2
@@ -239,13 +245,15 @@ def choose(
     steep = steepness(rays, xi, eta)
     half = inf if window is None else window[0] * window[1] / 2
     bound = flatness * plane_wave_bound(lens, source, rays, weight, steep, half)
-    if bound > PLANE_SHARE * allowed:
+    left_open = quick and bound > PLANE_SHARE * allowed and is_long_comparison(lens, source, clip, half)
+    if bound > PLANE_SHARE * allowed and not left_open:
         bound = min(bound, _compared(lens, source, clip, half))
     if bound <= PLANE_SHARE * allowed or not _sphere_is_affordable(lens, source, clip, window):
         left = allowed - bound if bound <= PLANE_SHARE * allowed else allowed
         choice = _choose_plane(lens, source, clip, rays, steep, left / flatness)
         both = flatness * choice.predicted_error + bound
-        return replace(choice, predicted_error=both, allowed_error=allowed, plane_wave_error=bound, flatness=flatness)
+        choice = replace(choice, predicted_error=both, allowed_error=allowed, plane_wave_error=bound, flatness=flatness)
+        return replace(choice, open=left_open)
     error = TRACED_ERROR if rays.passed.all() and not clip else EDGE_ERROR
     error = error if flatness * error <= allowed else SETTLED_TOLERANCE**2
     lost = int((~rays.passed).sum())
@@ -258,6 +266,7 @@ def choose(
         allowed_error=allowed,
         plane_wave_error=bound,
         flatness=flatness,
+        open=left_open,
     )
 
 
@@ -294,8 +303,11 @@ def _sphere_is_affordable(lens: Lens, source: Source, clip: bool, window: tuple[
         smooth = _smooth(lens, source, clip)
         most = AUTO_SECONDS / (2 * TERM_SECONDS) if smooth else AUTO_SECONDS * LAST_PASS / RAY_SECONDS
         half = half_window_um(lens, source) if window is None else window[0] * window[1] / 2
+        reach = hypot(half, half)
+        if nodes_from(lens, source, reach) > PLANE_NODES * most:  # spared the neighbouring fields that a sphere takes
+            return False
         sphere = exit_sphere(lens, source)
-        return sphere is not None and nodes_from(lens, source, hypot(half, half), sphere) <= most
+        return sphere is not None and nodes_from(lens, source, reach, sphere) <= most
     except GeometryError:
         return False
 

@@ -37,6 +37,7 @@ BOUND, FALL = 0.4, 2 / 3  # held by 500 random states (python -m tests.long.sphe
 MOST_INSIDE = 0.9  # of the rays in a window, from which on its R² is that of the whole picture
 SAMPLES = 64  # a side of the window in which the two sums are compared
 ROOM = 1.1, 2.0  # of that window: of the landing points, and Airy radii
+FEW_NODES = 2**14  # of that comparison: some 10 ms
 MOST_NODES = 2**21  # of that comparison: half a second, where a sum of spherical waves takes ten times as long
 
 
@@ -140,6 +141,15 @@ def plane_wave_error(lens: Lens, source: Source, clip: bool = False, half_um: fl
     return 1 - r_squared(plane, own) + _wide_angle(rays, steepness(rays, xi, eta), sphere.distance * UM_PER_MM)
 
 
+def is_long_comparison(lens: Lens, source: Source, clip: bool = False, half_um: float = inf) -> bool:
+    """Return whether `plane_wave_error` is made by so many nodes that it takes longer than a frame of a window."""
+    half = min(half_um, half_window_um(lens, source))
+    try:
+        return prod(first_counts(lens, source, hypot(half, half), clip, MOST_NODES)) > FEW_NODES
+    except P2SFError:  # then no comparison is made
+        return False
+
+
 def worth_spherical(lens: Lens, source: Source, clip: bool) -> bool:
     """Return whether plane waves are predicted to miss by more than CAUTION, or may where that takes too many nodes."""
     try:
@@ -167,6 +177,7 @@ def beyond_plane_waves(lens: Lens, source: Source, sphere: ExitSphere) -> float:
     return float(np.sqrt(np.mean((turn - turn.mean(0)) ** 2)))
 
 
+@lru_cache(maxsize=64)
 def half_window_um(lens: Lens, source: Source) -> float:
     """Return half the side of the window about the chief ray in which the two sums are compared, µm."""
     xi, eta, _ = level_rays(levels_for(lens)[0])

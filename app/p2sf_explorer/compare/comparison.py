@@ -10,10 +10,9 @@ import numpy as np
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
 from p2sf.metrics.wavefront_map import WavefrontMap, disc, map_of_samples
-from p2sf.psf.methods import PsfRequest
 from p2sf_explorer.compare.differences import subtract
 from p2sf_explorer.compute import live as compute
-from p2sf_explorer.compute.deferred_sums import SumCache
+from p2sf_explorer.compute.deferred_sums import Request, SumCache
 from p2sf_explorer.compute.live import Live, ResultFunction
 from p2sf_explorer.compute.method import Least
 from p2sf_explorer.compute.setup import prescription
@@ -51,7 +50,7 @@ class Answers:
     beside: Live | None = None
 
     @property
-    def pending(self) -> PsfRequest | None:
+    def pending(self) -> Request | None:
         """Return the sum of waves that A's picture stands in for, else B's."""
         return self.a.pending or (self.b.pending if self.b else None)
 

@@ -1,11 +1,17 @@
 """Sums of waves: which are too slow for a frame or take too many samples, and a cache. No Qt here."""
 
+from collections.abc import Callable
+from dataclasses import dataclass
 from math import inf
 
+from p2sf.errors import P2SFError
+from p2sf.lens.lens import Lens
+from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.psf.cost import node_count, predicted_seconds, seconds
-from p2sf.psf.methods import AUTO_SECONDS, Choice, PsfOptions, PsfRequest, by_six, method_of
+from p2sf.psf.methods import AUTO_SECONDS, Choice, PsfOptions, PsfRequest, by_six, method_of, psf_of
 from p2sf.psf.result import Psf
+from p2sf.psf.spherical import plane_wave_error
 from p2sf.raytrace.fit import FittedPencil
 from p2sf_explorer.compute.setup import ParaxialSetup
 from p2sf_explorer.state.state import State
@@ -17,22 +23,36 @@ KEPT = 8
 KEPT_BYTES = 2**25  # of all samples that are kept, 32 MB: four of the largest pictures in float64
 
 
+@dataclass(frozen=True)
+class ComparisonRequest:
+    """The comparison of plane and spherical waves on which the choice of a method waits."""
+
+    lens: Lens
+    source: Source
+    clip: bool
+
+
+Request = PsfRequest | ComparisonRequest
+Found = Psf | Message | float
+"""A PSF, why there is none, or what plane waves miss."""
+
+
 class SumCache:
-    """The latest PSFs that were too slow for a frame, by request; ``version`` rises with each.
+    """The latest sums that were too slow for a frame, by request; ``version`` rises with each.
 
     Of a sum that failed the reason is kept, so that nobody waits for it.
     """
 
     def __init__(self) -> None:
-        self._found: dict[PsfRequest, Psf | Message] = {}
+        self._found: dict[Request, Found] = {}
         self.version = 0
 
-    def get(self, request: PsfRequest) -> Psf | Message | None:
-        """Return the PSF, or why there is none; None where neither is known."""
+    def get(self, request: Request) -> Found | None:
+        """Return what was found, or why nothing was; None where neither is known."""
         return self._found.get(request)
 
-    def keep(self, request: PsfRequest, found: Psf | Message) -> None:
-        """Keep a PSF or why there is none, and forget the oldest of too many."""
+    def keep(self, request: Request, found: Found) -> None:
+        """Keep what was found or why nothing was, and forget the oldest of too many."""
         self._found[request] = found
         self.version += 1
         for oldest in list(self._found)[:-1]:
@@ -42,6 +62,16 @@ class SumCache:
 
     def _bytes(self) -> int:
         return sum(found.values.nbytes for found in self._found.values() if isinstance(found, Psf))
+
+
+def answer_to(request: Request, cancelled: Callable[[], bool] | None = None) -> Psf | float:
+    """Return what a request asks for, for a worker. Raises P2SFError where there is no PSF."""
+    if isinstance(request, PsfRequest):
+        return psf_of(request, cancelled)
+    try:
+        return plane_wave_error(request.lens, request.source, request.clip)
+    except P2SFError:  # a choice does without
+        return inf
 
 
 def psf_request(

@@ -11,7 +11,7 @@ from p2sf.metrics.perfect import airy_radius_um
 from p2sf.metrics.wavefront_map import WavefrontMap
 from p2sf.psf.methods import PsfRequest
 from p2sf.psf.result import Psf
-from p2sf_explorer.compute.deferred_sums import SumCache
+from p2sf_explorer.compute.deferred_sums import Request, SumCache
 from p2sf_explorer.compute.layout import Layout, layout_of
 from p2sf_explorer.compute.method import ALONE, Least, Rendered, render_state
 from p2sf_explorer.compute.pupil import dominant, pupil_of
@@ -48,7 +48,7 @@ class Live:
     before: Mapping[str, Any] = field(default_factory=dict)
     side: str = ""
     sides: tuple[State, ...] = ()
-    pending: PsfRequest | None = None
+    pending: Request | None = None
     request: PsfRequest | None = None
     finest: int = 0
     refused: Message | None = None

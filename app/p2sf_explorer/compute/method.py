@@ -22,7 +22,7 @@ from p2sf.raytrace.fit import FittedPencil
 from p2sf.raytrace.pencil import Rays, pencil
 from p2sf.raytrace.ray_field import AIRY_RADIUS
 from p2sf.raytrace.seen_mask import mask_seen
-from p2sf_explorer.compute.deferred_sums import SumCache, most_samples, psf_request, slow
+from p2sf_explorer.compute.deferred_sums import ComparisonRequest, Request, SumCache, most_samples, psf_request, slow
 from p2sf_explorer.compute.preview import (
     EDGE,
     FAR,
@@ -75,7 +75,7 @@ class Rendered:
     exact: bool
     method: str
     pupil: WavefrontMap | None = None
-    pending: PsfRequest | None = None
+    pending: Request | None = None
     request: PsfRequest | None = None
     finest: int = 0
     refused: Message | None = None
@@ -195,7 +195,7 @@ def render_state(
         method, choice = SEIDEL.name, None
         why = Message("seidel from the six coefficients (what-if: coefficients altered by hand)")
     else:
-        choice = None if kept_method else choice_for_state(state, setup)
+        choice = None if kept_method else choice_for_state(state, setup, cache)
         method, why = kept_method or state.optics.method, NO_REASON
         if choice is not None:
             method, why = choice.method, Message("{method}: {reason}", method=choice.method, reason=choice.reason)
@@ -205,8 +205,18 @@ def render_state(
     elif by_six(method):
         check_image(setup.coefficients)
     task = Task(state, setup, method, why, least, cache, choice=choice)
-    picture = moving(task, quality) if quality == "preview" else resting(task)
+    if quality == "preview":
+        picture = moving(task, quality)
+    else:
+        picture = undecided(task) if choice is not None and choice.open else resting(task)
     return replace(picture, refused=refused) if refused else picture
+
+
+def undecided(task: Task) -> Rendered:
+    """Return the stand-in for a settled picture whose method a comparison too slow for a frame decides."""
+    soon = Message("auto compares two sums of waves to choose a method, which takes a moment")
+    pending = ComparisonRequest(task.setup.lens, task.setup.source, task.state.optics.clip)
+    return replace(moving(task, "settled"), why=soon, pending=pending, slow=True)
 
 
 def resting(task: Task) -> Rendered:
@@ -225,7 +235,7 @@ def resting(task: Task) -> Rendered:
     if isinstance(result, Psf):
         return replace(settled_picture(task, result, request), slow=late)
     stand_in = replace(moving(task, "settled"), slow=True)
-    if result is not None:
+    if isinstance(result, Message):
         return replace(stand_in, why=result)
     soon = Message("{method} follows: its sum of waves takes a moment", method=task.method)
     return replace(stand_in, why=soon, pending=request)
@@ -397,11 +407,13 @@ def edge_pencil(setup: ParaxialSetup) -> Rays:
     return pencil(setup.lens, setup.source, *edge_points())
 
 
-def choice_for_state(state: State, setup: ParaxialSetup) -> Choice | None:
-    """Return what ``auto`` chooses; None where a person chose the method."""
+def choice_for_state(state: State, setup: ParaxialSetup, cache: SumCache | None = None) -> Choice | None:
+    """Return what ``auto`` chooses, with a ``cache`` within a frame; None where a person chose the method."""
     if not state.optics.automatic:
         return None
-    return choose(setup.lens, setup.source, state.optics.tolerance, state.optics.clip)
+    lens, source, clip = setup.lens, setup.source, state.optics.clip
+    quick = cache is not None and cache.get(ComparisonRequest(lens, source, clip)) is None
+    return choose(lens, source, state.optics.tolerance, clip, quick=quick)
 
 
 def at_least(r_squared: float) -> str:

@@ -5,9 +5,8 @@ from collections.abc import Callable
 from PySide6.QtCore import QObject
 
 from p2sf.messages import Message
-from p2sf.psf.methods import PsfRequest, psf_of
 from p2sf.psf.result import Psf
-from p2sf_explorer.compute.deferred_sums import SumCache
+from p2sf_explorer.compute.deferred_sums import Request, SumCache, answer_to
 from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.store.worker import LatestWins
@@ -23,12 +22,12 @@ class DeferredWorker(QObject):
         super().__init__(parent)
         self._store, self._refresh, self.cache = store, refresh, SumCache()
         self._state = store.state
-        self._pending: PsfRequest | None = None
+        self._pending: Request | None = None
         self.worker = LatestWins(self)
         self.worker.finished.connect(self._on_finished)
         self.worker.failed.connect(self._on_failed)
 
-    def watch(self, state: State, pending: PsfRequest | None) -> None:
+    def watch(self, state: State, pending: Request | None) -> None:
         """Compute the pending sum of a state's picture, and nothing else."""
         self._state = state
         if pending == self._pending:
@@ -36,15 +35,15 @@ class DeferredWorker(QObject):
         self.worker.cancel()
         self._pending = pending
         if pending:
-            self.worker.submit(pending, lambda cancelled, _: psf_of(pending, cancelled.is_set))
+            self.worker.submit(pending, lambda cancelled, _: answer_to(pending, cancelled.is_set))
 
-    def _on_finished(self, request: PsfRequest, psf: Psf) -> None:
-        self.cache.keep(request, psf)
+    def _on_finished(self, request: Request, found: Psf | float) -> None:
+        self.cache.keep(request, found)
         if request == self._pending:
             self._pending = None
             self._refresh(self._state)
 
-    def _on_failed(self, request: PsfRequest, message: Message) -> None:
+    def _on_failed(self, request: Request, message: Message) -> None:
         """Say why there is no picture, and remember it: the same sum would fail again."""
         self.cache.keep(request, message)
         if request == self._pending:

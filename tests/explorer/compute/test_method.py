@@ -7,7 +7,7 @@ import pytest
 from scipy.interpolate import RectBivariateSpline
 
 from p2sf.psf.methods import choose, psf_of
-from p2sf_explorer.compute.deferred_sums import SumCache
+from p2sf_explorer.compute.deferred_sums import ComparisonRequest, SumCache, answer_to
 from p2sf_explorer.compute.finer import CRITICAL, ShownArea, finer, source
 from p2sf_explorer.compute.finer import answer as render_finer
 from p2sf_explorer.compute.live import live
@@ -148,3 +148,17 @@ def test_random_pictures_of_the_window_are_those_of_huygens_or_say_ray_density(c
     with capsys.disabled():
         print("\n" + summary(found))
     assert not [one for one in found if one.wrong]
+
+
+def test_a_choice_that_takes_long_waits_for_a_worker_and_is_that_of_the_library():
+    """The comparison of two sums of waves that it takes held the window up for a second at every step."""
+    state, cache, asked = change(with_lens(State(), "fast_gauss_f14"), field_deg=6.9, method="auto"), SumCache(), []
+    answer = live(state, cache=cache)
+    while answer.pending:
+        asked.append(answer.pending)
+        cache.keep(answer.pending, answer_to(answer.pending))
+        answer = live(state, cache=cache)
+    setup = paraxial_setup(state)
+    assert isinstance(asked[0], ComparisonRequest) and asked[0] not in asked[1:]
+    assert answer.method == choose(setup.lens, setup.source, state.optics.tolerance).method
+    np.testing.assert_array_equal(answer.psf.values, live(state).psf.values)

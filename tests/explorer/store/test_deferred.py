@@ -98,7 +98,7 @@ def test_a_sum_that_fails_says_so_and_nobody_waits_for_it(window, qtbot, monkeyp
     def fail(pending, cancelled):
         raise GeometryError("no ray passes; stop down.")
 
-    monkeypatch.setattr(deferred, "psf_of", fail)
+    monkeypatch.setattr(deferred, "answer_to", fail)
     window.store.replace(WIDE)
     with qtbot.waitSignal(window.deferred.worker.failed):
         assert window.live.pending
@@ -126,7 +126,7 @@ def test_what_was_given_up_and_asked_for_again_comes(window, qtbot, monkeypatch)
         return replace(ready, method="huygens", pixel_um=pending.window[1])
 
     said = []
-    monkeypatch.setattr(deferred, "psf_of", stoppable)
+    monkeypatch.setattr(deferred, "answer_to", stoppable)
     monkeypatch.setattr(window, "refuse", said.append)
     window.store.replace(WIDE)
     window.store.update(field_deg=13.0)
@@ -146,7 +146,7 @@ def test_of_two_pinned_b_is_summed_once(window, qtbot, monkeypatch):
         values = np.full((pending.window[0],) * 2, pending.window[0] ** -2.0, np.float32)
         return replace(ready, method="huygens", values=values, pixel_um=pending.window[1])
 
-    monkeypatch.setattr(deferred, "psf_of", counted)
+    monkeypatch.setattr(deferred, "answer_to", counted)
     window.store.replace(change(FIRST, pinned=optics(WIDE)))
     assert window._answers.pending == window._answers.b.pending is not None
     qtbot.waitUntil(lambda: not (window.deferred.worker.busy or window._answers.pending))

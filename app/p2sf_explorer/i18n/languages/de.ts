@@ -2558,6 +2558,7 @@
 <message><source>{lost} of {rays} rays are lost, and a smooth pupil does not describe that</source><translation>{lost} von {rays} Strahlen gehen verloren, und das beschreibt keine glatte Pupille</translation></message>
 <message><source>{lost} of {total} rays do not reach the sensor; stop the lens down or reduce the field</source><translation>{lost} von {total} Strahlen erreichen den Sensor nicht; abblenden oder das Feld verkleinern</translation></message>
 <message><source>{lost} rays lost</source><translation>{lost} Strahlen verloren</translation></message>
+<message><source>auto compares two sums of waves to choose a method, which takes a moment</source><translation>auto vergleicht zwei Wellensummen, um ein Verfahren zu wählen; das dauert einen Moment</translation></message>
 <message><source>{method} follows: its sum of waves takes a moment</source><translation>{method} folgt: die Summe der Wellen dauert einen Augenblick</translation></message>
 <message><source>{method} here: longer than a frame</source><translation>{method} hier: länger als ein Bild der Bewegung</translation></message>
 <message><source>{method} here: {ms} ms, faint light within {percent} % of the most exact method's</source><translation>{method} hier: {ms} ms, schwaches Licht auf {percent} % wie beim genauesten Verfahren</translation></message>
