@@ -2,6 +2,8 @@
 
 import numpy as np
 
+FLATTEST = 1e6  # picture, above which the reference itself tells no R² of 0.99
+
 
 def r_squared(values: np.ndarray, reference: np.ndarray) -> float:
     """Return R² of two windows (y, x) after both are given unit sum."""
@@ -13,6 +15,15 @@ def relative_l2(values: np.ndarray, reference: np.ndarray) -> float:
     """Return the relative L2 distance of two windows (y, x) after both are given unit sum."""
     found, wanted = _unit_sum(values), _unit_sum(reference)
     return float(np.sqrt(np.square(wanted - found).sum() / np.square(wanted).sum()))
+
+
+def flatness_of(values: np.ndarray) -> float:
+    """Return Σp²/Σ(p − mean)² of a picture: 1 of a PSF on a dark ground, more where a window shows a part of it.
+
+    R² compares errors with what the picture varies, so that of the same relative L2 error 1 − R² is this times as much.
+    """
+    varying = float(np.square(values - values.mean()).sum())
+    return min(float(np.square(values).sum()) / varying, FLATTEST) if varying else 1.0
 
 
 def _unit_sum(values: np.ndarray) -> np.ndarray:

@@ -52,6 +52,7 @@ BLOCK = 8192  # rays traced at a time: few enough for a second-level cache and t
 GROWTH = 1.3
 MOST_NODES = 2**22
 NODE_SECONDS, LAST_PASS = 4e-6, 0.4  # of a ray on one core, and the share of all rays that are in the last pass
+OF_FIELD = 3.0  # times what is left of a field, of its intensity: twice that, and more where the pivots of QR are rough
 FRINGES_OF_SPHERES = 1.05  # finer than those of rays are beyond a focus; so near their end contrast is next to none
 MOST_FOR_PEAK = 2**17  # for the peak alone, which is otherwise sought only in the window
 
@@ -160,7 +161,7 @@ def _with_waves_error(made: Origin, waves: Waves, intensity: np.ndarray, axis: n
     """
     if not isinstance(waves, SphericalWaves) or made.predicted_error is None:
         return made
-    missed = waves.skeleton(axis, axis, intensity.dtype).missed or 0.0
+    missed = OF_FIELD * (waves.skeleton(axis, axis, intensity.dtype).missed or 0.0)
     other = intensity * waves.obliquity(axis, axis) ** 2
     oblique = max(0.0, *(1 - r_squared(*pair) for pair in ((intensity, other), (other, intensity))))
     error = None if made.error is None else float(np.hypot(made.error, missed + np.sqrt(oblique) * (oblique > CAUTION)))

@@ -17,6 +17,7 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message
 from p2sf.paraxial.seidel import Coefficients, check_seidel, coefficients, reason_against_coefficients
+from p2sf.psf.compare import flatness_of
 from p2sf.psf.fitted import MOST_NODES as MOST_FITTED
 from p2sf.psf.fitted import NodesOf, psf_of_fit
 from p2sf.psf.gaussian_fit import gaussian_psf
@@ -72,12 +73,12 @@ from p2sf.threads import one_blas_thread
 AUTO = "auto"
 BELOW_ONE = 1 - 2.0**-53  # the largest R² that can be required of a choice
 PITCH_RINGS = 8  # of rays, to estimate the extent of the light
-AUTO_SECONDS = 1.5  # that `auto` may take for a sum by its estimated cost: light per pixel takes two, 5 s with all else
+AUTO_SECONDS = 1.25  # that `auto` may take for a sum by its estimated cost: light per pixel takes two, 5 s with all else
 FIELD_SHARE = 0.01  # of the root of the 1 − R² allowed, that a sum of spherical waves may leave of the field
 PLANE_SHARE = 0.5  # of the allowed error that plane waves may use up: spherical ones take fifty times as long as a fit
 PLANE_NODES = 2.0  # times those of spherical waves, more than plane waves of the same blur take
 COMPARED = 2.0  # times their comparison, which holds for 99.7 % of states (python -m tests.long.spherical_prediction)
-FLATTEST = 1e6  # picture, above which the reference itself tells no R² of 0.99
+ROOM = 1.05  # times the flatness of a first picture, since a better one differs from it
 QUICK_LEVELS = LEVELS[:2]  # fitted to the same 64 rays
 TABLE_SECONDS, RAY_SECONDS = 4e-7, 4e-6  # of a node from tables of polynomials, and of a ray through a dozen surfaces
 
@@ -270,15 +271,6 @@ def choose(
     )
 
 
-def flatness_of(values: np.ndarray) -> float:
-    """Return Σp²/Σ(p − mean)² of a picture: 1 of a PSF on a dark ground, more where a window shows a part of it.
-
-    R² compares errors with what the picture varies, so that of the same relative L2 error 1 − R² is this times as much.
-    """
-    varying = float(np.square(values - values.mean()).sum())
-    return min(float(np.square(values).sum()) / varying, FLATTEST) if varying else 1.0
-
-
 def _compared(lens: Lens, source: Source, clip: bool, half_um: float) -> float:
     """Return what plane waves may miss by a comparison of two sums; infinite where it takes too many nodes, or none.
 
@@ -407,11 +399,12 @@ def render(
     asked = PsfRequest(lens, source, method, (pixels, pixel_um), options)
     if method != AUTO:
         return psf_of(asked)
-    psf = psf_of(chosen(asked))
-    error, allowed, flatness = psf.predicted_error, 1 - options.min_r2, flatness_of(psf.values)
-    if error is None or not error <= allowed < flatness * error:
+    request = chosen(asked)
+    psf = psf_of(request)
+    assert request.choice is not None
+    if psf.shortfall is None or request.choice.predicted_error > 1 - options.min_r2:
         return psf
-    return psf_of(chosen(asked, flatness))
+    return psf_of(chosen(asked, ROOM * flatness_of(psf.values)))
 
 
 def chosen(asked: PsfRequest, flatness: float = 1.0) -> PsfRequest:
@@ -467,14 +460,18 @@ def psf_of(asked: PsfRequest, cancelled: Cancelled | None = None) -> Psf:
 
 
 def _with_promise(psf: Psf, choice: Choice, asked_error: float) -> Psf:
-    """Return what `auto` made with the 1 − R² that was asked for, and with what plane waves may miss."""
-    error = None if psf.predicted_error is None else choice.flatness * psf.predicted_error
-    if choice.method != SPHERICAL.name and error is not None and choice.plane_wave_error is not None:
-        error += choice.plane_wave_error
+    """Return what `auto` made with the 1 − R² that was asked for, and with what it may miss of it in this window."""
+    flatness, error = flatness_of(psf.values), psf.predicted_error
+    if error is not None:
+        error *= flatness
+        if choice.method != SPHERICAL.name and choice.plane_wave_error is not None:
+            error += choice.plane_wave_error * max(1.0, flatness / choice.flatness)
     if error is None or psf.error is None or error <= asked_error:
         return psf.with_fields(predicted_error=error, asked_error=asked_error)
     # Where the promise is not kept, the error of the sum is the smaller part of what the picture misses.
-    return psf.with_fields(predicted_error=error, error=hypot(psf.error, error**0.5), asked_error=asked_error)
+    return psf.with_fields(
+        predicted_error=error, error=hypot(psf.error, (error / flatness) ** 0.5), asked_error=asked_error
+    )
 
 
 def _or_none(figure: Callable[[PsfRequest], float], asked: PsfRequest) -> float | None:

@@ -14,6 +14,7 @@ from p2sf.conventions import NM_PER_UM, centred_axis
 from p2sf.errors import P2SFWarning
 from p2sf.files.writing import plain
 from p2sf.messages import Message, ParameterName
+from p2sf.psf.compare import flatness_of
 from p2sf.psf.record import true_of_all
 
 if TYPE_CHECKING:
@@ -198,8 +199,19 @@ class Psf:
             asked=self.asked_error,
             method=self.method,
             error=missed,
-            l2=float(np.sqrt(missed)),
+            l2=float(np.sqrt(missed / flatness_of(self.values))),
         )
+
+    @property
+    def l2_error(self) -> float | None:
+        """Return a bound on the relative L2 error of the picture in its window; None where none is known.
+
+        Of its sum, ``error``, and of what describes the pupil, ``predicted_error``, which "auto" states of the window.
+        """
+        if self.error is None or self.predicted_error is None:
+            return None
+        flatness = 1.0 if self.asked_error is None else flatness_of(self.values)
+        return float(np.hypot(self.error, np.sqrt(self.predicted_error / flatness)))
 
     @property
     def _cut_off(self) -> Message | None:
@@ -236,11 +248,9 @@ class Psf:
             parts.append(f"{100 * self.energy:.3g} % of the {IN_WINDOW}")
         if self.shortfall:
             parts.append(f"1 − R² up to {min(float(self.predicted_error or 0.0), 1.0):.1e}")
-        if isinstance(self.energy, float) and self.energy < HALF_OF_LIGHT and self.error and self.predicted_error:
+        if isinstance(self.energy, float) and self.energy < HALF_OF_LIGHT and self.l2_error:
             # R² compares with what little the light varies in such a window.
-            parts.append(
-                f"relative L2 error up to {min(float(np.hypot(self.error, np.sqrt(self.predicted_error))), 1.0):.1e}"
-            )
+            parts.append(f"relative L2 error up to {min(self.l2_error, 1.0):.1e}")
         return f"<Psf: {', '.join(parts)}>"
 
     def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> np.ndarray:

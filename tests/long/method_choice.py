@@ -158,9 +158,7 @@ def trial(place: int, seed: int, masks: bool = False, names: Sequence[str] = ())
         1 - tolerance,
         psf.method,
         inf if psf.predicted_error is None else psf.predicted_error,
-        inf
-        if psf.error is None or psf.predicted_error is None
-        else float(np.hypot(psf.error, psf.predicted_error**0.5)),
+        psf.l2_error or inf,
         None if psf.energy is None else float(psf.energy),
         reference,
         missed,

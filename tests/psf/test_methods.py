@@ -22,7 +22,7 @@ from p2sf.metrics.measures import PUPILS
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf import cost, methods
-from p2sf.psf.compare import r_squared
+from p2sf.psf.compare import flatness_of, r_squared
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import (
     NAMES,
@@ -31,7 +31,6 @@ from p2sf.psf.methods import (
     PsfOptions,
     PsfRequest,
     choose,
-    flatness_of,
     render,
     residual_for,
 )

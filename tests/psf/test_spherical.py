@@ -245,7 +245,7 @@ def test_auto_keeps_its_promise_in_a_window_of_little_light():
     missed = np.linalg.norm(found - exact) / np.linalg.norm(exact)
     assert psf.energy < 0.02 and 1 - ((found - exact) ** 2).sum() / ((exact - exact.mean()) ** 2).sum() > 0.99
     # The sum is exact to 2e-10 in these nodes (360 × 360); the picture states its relative L2 error.
-    assert missed < np.hypot(psf.error, np.sqrt(psf.predicted_error)) < 0.01 and "relative L2 error" in repr(psf)
+    assert missed < psf.l2_error < 0.01 and "relative L2 error" in repr(psf)
 
 
 def test_a_stop_smaller_than_the_wavelength_states_that_scalar_waves_do_not_suffice():
