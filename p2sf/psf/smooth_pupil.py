@@ -111,6 +111,7 @@ def interpolated_waves(
     phase, fx, fy, field, *length = on_disc(lens.pupil_domain, values, coarse, counts)
     nodes = lens.pupil_domain.nodes(counts)
     amplitude = pupil_amplitude(nodes.weight * field / (nodes.weight @ field), phase)
+    fx, fy = fx.copy(), fy.copy()  # so that phase and field, in the same array, need no memory during the sum
     rays = coarse_pencil(lens, source, coarse)
     waves = Waves(amplitude, fx, fy, nodes.domain, _farthest_um(rays), reach_um)
     return RayWaves(waves_from(waves, sphere, *length), counts, 0, rays.phase.size)

@@ -43,10 +43,11 @@ def interpolate_pupil(
     sides = values.reshape(len(values), len(domain.halves), -1)
     found = np.zeros((*sides.shape[:2], radius.size * theta.size))
     for odd in (False, True):
-        some = [number for number, own in enumerate(ODD[: len(values)]) if odd in domain.parities(own)]
         signs = np.array(domain.halves)[:, None] if odd else 1
-        part = (signs * sides[some]).sum(1) / len(domain.halves)
-        found[some] += signs * interpolate(part, coarse, radius, theta, odd)[:, None]
+        for number, own in enumerate(ODD[: len(values)]):  # one by one: of millions of points each takes 50 MB
+            if odd in domain.parities(own):
+                part = (signs * sides[number]).sum(0) / len(domain.halves)
+                found[number] += signs * interpolate(part, coarse, radius, theta, odd)
     return found.reshape(len(values), -1)
 
 

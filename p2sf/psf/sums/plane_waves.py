@@ -24,7 +24,8 @@ RADIAL_STEP, ANGULAR_STEP = 4, 16  # of node counts, so that cached nodes serve 
 def pupil_amplitude(weight: np.ndarray, phase_waves: ArrayLike, dtype: DTypeLike = np.float64) -> np.ndarray:
     """Return weight·exp(2πi·phase), complex; whole waves are subtracted first, so that float32 stays accurate."""
     cosine, sine = cosine_sine(np.array(phase_waves, dtype=float), dtype)
-    amplitude, weight = np.empty(cosine.shape, np.result_type(dtype, np.complex64)), weight.astype(dtype)
+    amplitude = np.empty(cosine.shape, np.result_type(dtype, np.complex64))
+    weight = weight.astype(dtype, copy=False)
     np.multiply(cosine, weight, out=amplitude.real)
     np.multiply(sine, weight, out=amplitude.imag)
     return amplitude
