@@ -399,12 +399,11 @@ def render(
     asked = PsfRequest(lens, source, method, (pixels, pixel_um), options)
     if method != AUTO:
         return psf_of(asked)
-    request = chosen(asked)
-    psf = psf_of(request)
-    assert request.choice is not None
-    if psf.shortfall is None or request.choice.predicted_error > 1 - options.min_r2:
+    psf = psf_of(chosen(asked))
+    error, allowed, flatness = psf.predicted_error, 1 - options.min_r2, flatness_of(psf.values)
+    if error is None or not error / flatness <= allowed < error:
         return psf
-    return psf_of(chosen(asked, ROOM * flatness_of(psf.values)))
+    return psf_of(chosen(asked, ROOM * flatness))
 
 
 def chosen(asked: PsfRequest, flatness: float = 1.0) -> PsfRequest:
