@@ -150,7 +150,8 @@ def landing_energy(
     x, y, wave, light = _nodes(pupil, (aside_um, centre_um), 2 * waves)
     circles = _circles(even_count(waves), pupil.domain)
     top = waves / half
-    field = _at_points(x * pupil.half_x * top, y * pupil.half_y * top, wave, circles)
+    x, y = (_turns(place * side * top) for place, side in ((x, pupil.half_x), (y, pupil.half_y)))
+    field = _at_points(x, y, wave, circles)
     mean = np.add.reduceat(field.real**2 + field.imag**2, circles.starts, dtype=float) / circles.directions
     flux = mean * circles.radius * (2 * pi * top**2 * pupil.half_x * pupil.half_y / light)
     series = fft.dct(flux, type=2) / flux.size
@@ -197,14 +198,18 @@ def _harmonics(order: float) -> float:
     return order + 8 * float(np.cbrt(order)) + 8
 
 
+def _turns(waves: np.ndarray) -> np.ndarray:
+    """Return so many waves in radians, in single precision: of millions of nodes both would take 100 MB."""
+    return (2 * pi * waves).astype(np.float32)
+
+
 def _at_points(kx: np.ndarray, ky: np.ndarray, wave: np.ndarray, circles: Circles) -> np.ndarray:
-    """Return Σ wave·exp(2πi(kx·x + ky·y)) at the points of circles, (points,) complex64."""
+    """Return Σ wave·exp(i(kx·x + ky·y)) at the points of circles, (points,) complex64."""
     import finufft
 
-    turns = [(2 * pi * k).astype(np.float32) for k in (kx, ky)]
     # The relative error of all points together; chosen with the grid, so that the kernel stays within single precision.
     how = {"eps": SINGLE, "upsampfac": FINE_GRID, "isign": 1, "nthreads": 1}
-    field: np.ndarray = finufft.nufft2d3(*turns, wave, circles.x, circles.y, **how)
+    field: np.ndarray = finufft.nufft2d3(kx, ky, wave, circles.x, circles.y, **how)
     return field
 
 

@@ -117,8 +117,6 @@ def _wide_angle(rays: Rays, steep: Steepness, distance_um: float) -> float:
     return (pi * steep.spread * spread * (sine * t + t * t / 2)) ** 2 + t**4
 
 
-@lru_cache(maxsize=64)
-@one_blas_thread
 def plane_wave_error(lens: Lens, source: Source, clip: bool = False, half_um: float = inf) -> float:
     """Return the predicted 1 − R² of plane waves against spherical ones, both of exact rays.
 
@@ -127,7 +125,13 @@ def plane_wave_error(lens: Lens, source: Source, clip: bool = False, half_um: fl
     these miss at wide angles (`_wide_angle`); 0 for an exit pupil at infinity. Raises GeometryError where rays do not
     reach the sensor, SamplingError where more than MOST_NODES are needed.
     """
-    half = min(half_um, half_window_um(lens, source))
+    return _compare_sums(lens, source, clip, min(half_um, half_window_um(lens, source)))
+
+
+@lru_cache(maxsize=64)
+@one_blas_thread
+def _compare_sums(lens: Lens, source: Source, clip: bool, half: float) -> float:
+    """Return `plane_wave_error`, kept by the window that it is of, however that was asked for."""
     reach = hypot(half, half)
     counts, axis = first_counts(lens, source, reach, clip, MOST_NODES), centred_axis(SAMPLES, 2 * half / SAMPLES)
     sphere = exit_sphere(lens, source)  # behind the counts, which refuse a wide blur sooner

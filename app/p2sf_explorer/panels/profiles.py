@@ -45,10 +45,13 @@ class ProfilesPanel(CurvesPanel):
         self._show_sections(live, view)
         self.within.set_data((), ())
         self.energy.update()
-        if view.pending:
+        if view.pending and not live.pending:
             self.asking.ask(view)
             return
         self.asking.forget()
+        if view.pending:  # behind the picture, which is told of first: each of the two takes half a gigabyte
+            self._say(tr("working"))
+            return
         self._say(said(self._paint(view, view)))
 
     def _say(self, text: str) -> None:
