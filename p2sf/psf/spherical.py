@@ -22,7 +22,7 @@ from p2sf.lens.source import Source
 from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import RayPupil, first_counts, ray_waves
 from p2sf.psf.prediction import CAUTION
-from p2sf.psf.smooth_pupil import interpolated_waves
+from p2sf.psf.smooth_pupil import all_reach, interpolated_waves
 from p2sf.psf.sums.plane_waves import Counts, Waves
 from p2sf.psf.sums.spherical_waves import SphericalWaves, waves_from
 from p2sf.pupil.domain import WHOLE, PupilDomain
@@ -146,7 +146,9 @@ def _compare_sums(lens: Lens, source: Source, clip: bool, half: float) -> float:
 
 
 def is_long_comparison(lens: Lens, source: Source, clip: bool = False, half_um: float = inf) -> bool:
-    """Return whether `plane_wave_error` is made by so many nodes that it takes longer than a frame of a window."""
+    """Return whether `plane_wave_error` takes longer than a frame: by its nodes, or since it has to follow rims."""
+    if clip or not all_reach(lens, source):
+        return True
     half = min(half_um, half_window_um(lens, source))
     try:
         return prod(first_counts(lens, source, hypot(half, half), clip, MOST_NODES)) > FEW_NODES

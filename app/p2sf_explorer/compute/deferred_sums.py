@@ -69,7 +69,7 @@ def answer_to(request: Request, cancelled: Callable[[], bool] | None = None) -> 
     if isinstance(request, PsfRequest):
         return psf_of(request, cancelled)
     try:
-        return plane_wave_error(request.lens, request.source, request.clip)  # which is kept, for `choose`
+        return plane_wave_error(request.lens, request.source, request.clip)
     except P2SFError:  # a choice does without
         return inf
 
