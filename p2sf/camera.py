@@ -474,6 +474,7 @@ class Camera(Settings):
 
 AS_IN_FILE = Camera()
 NEARER = 100.0  # times than what is in focus: metres look a thousand times nearer
+MOST_METRES = 1000.0  # to which scenes that are given in metres reach
 CLOSE_FOCAL_LENGTHS = 5.0  # beyond them, what is that much nearer than the focus may well be meant to be blurred
 
 
@@ -481,9 +482,11 @@ def _check_metres(lens: Lens, far_mm: float) -> None:
     """Raise RequestError where all depths are as near as metres are that are taken for millimetres.
 
     That is within the front focus, where nothing has a real image, or both close and a hundred times nearer than what
-    is in focus.
+    is in focus; and no number that would be kilometres: telescopes have a front focus hundreds of metres away.
     """
     points = cardinal_points(lens, lens.reference_wavelength_um)
+    if far_mm > MOST_METRES:
+        return
     focus, close = -float(points.front_focal_distance), CLOSE_FOCAL_LENGTHS * abs(float(points.effective_focal_length))
     sharp = focused_distance(lens)
     if (isfinite(focus) and far_mm <= focus) or (isfinite(sharp) and far_mm < min(close, sharp / NEARER)):

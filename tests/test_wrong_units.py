@@ -9,7 +9,9 @@ import pytest
 
 import p2sf
 from p2sf.arguments import _kind_words
+from p2sf.camera import _check_metres
 from p2sf.errors import RequestError, SamplingError
+from p2sf.paraxial.first_order import cardinal_points
 
 LENS = p2sf.load_lens("tessar")
 
@@ -84,3 +86,13 @@ def test_what_is_asked_for_exists():
     ):
         module, _, name = words.rpartition(".")
         assert hasattr(import_module(module), name)
+
+
+@pytest.mark.parametrize("depth_mm", [4.0e5, 2.0e4])
+def test_an_object_within_the_front_focus_of_a_telescope_is_not_taken_for_metres(depth_mm):
+    """The front focus of Hubble lies 474 m before it; its scenes may be nearer, and no number of metres is as large."""
+    lens = p2sf.load_lens("hubble")
+    assert -float(cardinal_points(lens, lens.reference_wavelength_um).front_focal_distance) > 4.7e5
+    _check_metres(lens, depth_mm)
+    with pytest.raises(RequestError, match="1000 for each metre"):
+        _check_metres(lens, 400.0)

@@ -6,9 +6,11 @@ import numpy as np
 
 from p2sf.camera import Setup
 from p2sf.cli.screen import text, warn
+from p2sf.lens.lens import Lens
+from p2sf.lensfile.library import find_lens
 from p2sf.messages import Message, ParameterName
 from p2sf.paraxial.first_order import image_distance
-from p2sf.paraxial.lens_checks import lens_checks
+from p2sf.paraxial.lens_checks import lens_checks, negative_glass
 from p2sf.paraxial.seidel import coefficients, of_aligned_lens
 from p2sf.paraxial.wavefront import steepest_slope
 from p2sf.raytrace.aiming import pupil_rays
@@ -22,6 +24,14 @@ TOO_COARSE = Message(
     "unknown: samples so far apart add up to no share; give a smaller {parameter}",
     parameter=ParameterName("pixel_um"),
 )
+
+
+def open_lens(name: str) -> Lens:
+    """Return a lens by its name or path, and print a warning of each glass in it that cannot be made."""
+    lens = find_lens(name)
+    for message in negative_glass(lens):
+        warn(message)
+    return lens
 
 
 def caution(setup: Setup, seidel: bool) -> None:

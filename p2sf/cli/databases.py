@@ -11,6 +11,7 @@ import numpy as np
 from cyclopts import App, Parameter
 
 from p2sf.camera import Request, set_up, usual_depths
+from p2sf.cli.cautions import open_lens
 from p2sf.cli.lookups import accuracy_rows
 from p2sf.cli.options import AS_IN_ITS_FILE, CameraFlags, Json, LensName, Threads, check_samples
 from p2sf.cli.screen import FILLED, Row, print_json, print_table, text, warn
@@ -24,7 +25,6 @@ from p2sf.database.render import Database, Sampling
 from p2sf.errors import RequestError
 from p2sf.files.writing import check_ending, check_place, plain
 from p2sf.lens.lens import Lens
-from p2sf.lensfile.library import find_lens
 from p2sf.messages import Message, ParameterName
 from p2sf.psf.methods import by_six
 from p2sf.raytrace.focusing import object_distance
@@ -115,7 +115,7 @@ def build(
     The stop auto is the narrowest rim for an object at infinity.
     """
     _check_output(output, kind.stack)
-    found = find_lens(lens)
+    found = open_lens(lens)
     setup = set_up(found, Request(depth_mm=inf, **vars(camera)))
     check_kind(kind.method, kind.interpolant, bool(nodes.fields_x_deg))
     start = perf_counter()

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from p2sf.camera import Setup, set_up
+from p2sf.cli.cautions import open_lens
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName
 from p2sf.cli.screen import Row, heading, print_json, print_table, warn
 from p2sf.lens.lens import Lens
@@ -111,7 +112,7 @@ def _look_up(facts: Any, key: str) -> object:
 
 def coefficients_command(lens: LensName, /, *, request: Asked = AS_IN_THE_FILE, as_json: Json = False) -> None:
     """Show the six wavefront coefficients of one source in waves, and the Seidel sums of every surface."""
-    setup = set_up(find_lens(lens), request)
+    setup = set_up(open_lens(lens), request)
     six, sums = seidel_numbers(setup)
     if as_json:
         return print_json({**wave_record(six, setup), "per_surface": sums.tolist()})

@@ -9,12 +9,12 @@ import numpy as np
 from cyclopts import Parameter
 
 from p2sf.camera import FIELDS, Request, Setup, mask_of, set_up
+from p2sf.cli.cautions import open_lens
 from p2sf.cli.options import AS_IN_THE_FILE, LENS_ENDINGS, Asked, Json, Output, Threads, check_output
 from p2sf.cli.screen import Row, percent_line, print_json, print_table, warn
 from p2sf.cli.spots import Clip
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
 from p2sf.errors import RequestError
-from p2sf.lensfile.library import find_lens
 from p2sf.measure.as_built import left_out, write_as_built
 from p2sf.measure.fitting.frame_fit import FrameFit
 from p2sf.measure.fitting.frame_terms import F_NUMBER_ERROR, FIELD, FOCUS, lens_optics
@@ -205,7 +205,7 @@ def _setup(lens: str | None, request: Request, frame: Frame) -> Setup | None:
                 "points of a picture are where they are seen",
                 parameter=name,
             )
-    return None if lens is None else set_up(find_lens(lens), request)
+    return None if lens is None else set_up(open_lens(lens), request)
 
 
 def _scale(setup: Setup | None, request: Request, frame: Frame) -> PictureOptics:

@@ -6,10 +6,10 @@ import numpy as np
 from cyclopts import Parameter
 
 from p2sf.camera import Setup, set_up
+from p2sf.cli.cautions import open_lens
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, check_whole
 from p2sf.cli.screen import Row, heading, print_json, print_table, warn
 from p2sf.conventions import degrees_from_slope
-from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.bending import elements
 from p2sf.tolerance.nodal import FieldAberrations, NodalSensitivities, field_aberrations, nodal_sensitivities
 
@@ -31,7 +31,7 @@ def nodes(
 ) -> None:
     """Show where coma and astigmatism vanish, as far out as the lens's widest field, and what each mm or ° does."""
     check_whole("fields", fields, 3, MOST_FIELDS)
-    setup = set_up(find_lens(lens), request)
+    setup = set_up(open_lens(lens), request)
     place = setup.source.depth_mm, setup.source.wavelength_um
     widest = abs(setup.field_deg) or setup.lens.widest_field_deg or 1.0
     axis = np.linspace(-widest, widest, fields)

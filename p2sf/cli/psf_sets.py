@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from p2sf.camera import Request, Setup, set_up
-from p2sf.cli.cautions import caution
+from p2sf.cli.cautions import caution, open_lens
 from p2sf.cli.images import USUAL, Picture, SetOptions
 from p2sf.cli.lookups import is_database
 from p2sf.cli.options import check_output
@@ -18,7 +18,6 @@ from p2sf.errors import RequestError
 from p2sf.export.psf_set import PIXEL_UM, PIXELS, PixelGrid, PsfSet, SetAxes, axes_of, left_out, psf_set
 from p2sf.export.psf_set_files import WRITERS, table, write_psf_set
 from p2sf.image import Progress
-from p2sf.lensfile.library import find_lens
 from p2sf.messages import ParameterName
 from p2sf.parameters import check_angle, check_positive
 from p2sf.spans import depths, numbers
@@ -45,7 +44,7 @@ def write_set(
     """Make the PSFs of a set, write them where a file is given, and show their figures."""
     check_output(output, WRITERS, lens)
     _check(lens, request, picture, spectrum, several)
-    setup = set_up(find_lens(lens), request)
+    setup = set_up(open_lens(lens), request)
     if not as_json:
         caution(setup, seidel=False)
     grid = PixelGrid(picture.pixel_um or PIXEL_UM, several.fill_factor or 1.0, picture.pixels or PIXELS)

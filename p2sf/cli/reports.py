@@ -9,6 +9,7 @@ from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, chec
 from p2sf.cli.screen import percent_line, print_json, print_table, warn
 from p2sf.errors import ExportError
 from p2sf.lens.misalignment import misalignments
+from p2sf.paraxial.lens_checks import negative_glass
 
 ENDINGS = ".pdf", ".html", ".json"
 Fields = Annotated[
@@ -54,6 +55,8 @@ def report(
 
     lists = {"curves_fields_deg": fields_deg, "curves_frequencies_per_mm": frequencies_per_mm}
     state = change(requested_state(lens, request), clip=clip, **lists)
+    for fault in negative_glass(prescription(state)):
+        warn(fault)
     if output is None and not as_json:
         table = answer(performance_request(state), lambda: False, lambda *_: None)
         heads = tuple(", ".join(filter(None, head)) for head in table.headings())

@@ -11,6 +11,7 @@ import numpy as np
 from cyclopts import Parameter
 
 from p2sf.camera import Camera, explicit_values
+from p2sf.cli.cautions import open_lens
 from p2sf.cli.options import (
     AS_IN_ITS_FILE,
     CameraFlags,
@@ -29,7 +30,6 @@ from p2sf.image.exposure import check_seed, expose, raw_numbers
 from p2sf.io.depth_files import read_scene_depths
 from p2sf.io.photo_files import WRITABLE, Photo, check_ending, kept_depth, read_photo, stored_as, write_photo
 from p2sf.lens.lens import Lens
-from p2sf.lensfile.library import find_lens
 from p2sf.messages import Message, ParameterName
 from p2sf.raytrace.focusing import object_distance
 from p2sf.scene import Plan, Scene, Sensor, plan, read_scene, verify
@@ -64,7 +64,7 @@ def plan_command(
 ) -> None:
     """Decide what a scene requires of a lens model, and say why."""
     check_whole("check", check, 0, 1000)
-    glass = find_lens(lens)
+    glass = open_lens(lens)
     asked = _read_scene(glass, scene)
     depth = depth_map(asked)
     planned = _make_plan(glass, asked if depth is None else asked.at_depths(depth))
@@ -216,7 +216,7 @@ def image(
         raise RequestError(
             "there is no {parameter}; say with -o where the picture goes, such as -o out.png", parameter="output"
         )
-    glass = find_lens(lens)
+    glass = open_lens(lens)
     asked = _read_scene(glass, scene)
     check_output(output, (*WRITABLE, *RAW), None if picture.startswith(CHART) else picture, asked.depth_map)
     if output.suffix.lower() not in RAW:
@@ -403,7 +403,7 @@ def sharpen(
         missing = "output" if output is None else "pixel_um"
         raise RequestError("there is no {parameter}; give it", parameter=missing)
     check_output(output, WRITABLE, photo)
-    own = Camera(find_lens(lens), pixel_um=pixel_um, **explicit_values(camera))
+    own = Camera(open_lens(lens), pixel_um=pixel_um, **explicit_values(camera))
     taken = read_photo(photo, encoding)
     warn(taken.caution)
     planned = own.picture_plan(taken.values, depth_mm, rtol=rtol, clip=clip)

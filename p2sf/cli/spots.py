@@ -9,12 +9,11 @@ import numpy as np
 from cyclopts import Parameter
 
 from p2sf.camera import Setup, set_up
-from p2sf.cli.cautions import crossed_surfaces
+from p2sf.cli.cautions import crossed_surfaces, open_lens
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, check_output, check_whole
 from p2sf.cli.screen import FILLED, heading, print_json, print_table, warn
 from p2sf.files.writing import plain, write_beside, write_json
 from p2sf.io.record import describe
-from p2sf.lensfile.library import find_lens
 from p2sf.metrics.perfect import airy_radius_um
 from p2sf.raytrace.field_geometry import cone
 from p2sf.raytrace.spot import DRAWN_RINGS
@@ -39,7 +38,7 @@ def spot(
     """Trace exact rays and show the spot they make on the sensor; write it as .csv, .json or .png."""
     check_whole("rings", rings, 1, MOST_RINGS)
     check_output(output, WRITERS, lens)
-    setup = set_up(find_lens(lens), request)
+    setup = set_up(open_lens(lens), request)
     points, figures = trace_spot(setup, rings, clip)
     if output:
         WRITERS[output.suffix.lower()](points, {**describe(setup), "spot": figures}, output)

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Annotated, BinaryIO
 from cyclopts import Parameter
 
 from p2sf.camera import Camera
+from p2sf.cli.cautions import open_lens
 from p2sf.cli.options import AS_IN_ITS_FILE, CameraFlags, Json, Output, check_output, check_whole
 from p2sf.cli.screen import print_json, print_table
 from p2sf.errors import ExportError, RequestError
 from p2sf.files.reasons import reason
 from p2sf.files.writing import write_beside, write_json
-from p2sf.lensfile.library import find_lens
 
 if TYPE_CHECKING:
     from p2sf.studies.tradeoff import MethodCost
@@ -83,7 +83,7 @@ def tradeoff(
         return trades.sampling(lens, output, as_json)
     check_output(output, WRITTEN, lens)
     _check(pixels, fields_deg, depths_mm, wavelengths_nm)
-    found = find_lens(lens)
+    found = open_lens(lens)
     rows = tradeoff.tradeoff(
         found,
         depths_mm=depths_mm,

@@ -8,11 +8,11 @@ import numpy as np
 from cyclopts import Parameter
 
 from p2sf.camera import Setup, set_up
+from p2sf.cli.cautions import open_lens
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, check_whole
 from p2sf.cli.screen import field_text, print_json, print_table, warn
 from p2sf.errors import RequestError
 from p2sf.lens.source import Source
-from p2sf.lensfile.library import find_lens
 from p2sf.parameters import check_positive
 from p2sf.tolerance import (
     Builds,
@@ -112,7 +112,7 @@ def tolerance(
             )
     check_positive("frequency_per_mm", frequency_per_mm)
     limits = {name: value for name, value in given.items() if value is not None}
-    setup = set_up(find_lens(lens), request)
+    setup = set_up(open_lens(lens), request)
     if own is None:
         listed: tuple[Tolerance, ...] = usual_tolerances(setup.lens, grade)
         compensators: tuple[Tolerance, ...] = (back_focus(setup.lens),)

@@ -5,11 +5,12 @@ from functools import partial
 from pathlib import Path
 from typing import Any, BinaryIO
 
+from p2sf.cli.cautions import open_lens
 from p2sf.cli.options import check_output
 from p2sf.cli.screen import print_json, print_table
 from p2sf.errors import RequestError
 from p2sf.files.writing import check_place, write_beside, write_json
-from p2sf.lensfile.library import find_lens, shipped_lenses
+from p2sf.lensfile.library import shipped_lenses
 from p2sf.studies import trade_fronts
 from p2sf.studies.complete_trade import DONE, LensTrade
 from p2sf.studies.trade_files import kept_or_compared, record, text_of
@@ -26,7 +27,7 @@ def complete(name: str | None, quick: bool, keep: Path | None, output: Path | No
     trades = []
     for number, one in enumerate(names, 1):
         tell = partial(_tell, f"{one} ({number} of {len(names)})")
-        trades.append(kept_or_compared(find_lens(one), keep, quick, tell))
+        trades.append(kept_or_compared(open_lens(one), keep, quick, tell))
     if output is not None:
         _write(output, trades)
     if as_json:
@@ -81,7 +82,7 @@ def sampling(name: str | None, output: Path | None, as_json: bool) -> None:
     from p2sf.studies.sampling import draw_sampling, sampling_map
 
     check_output(output, (".json", ".png"), name)
-    found = sampling_map() if name is None else sampling_map(find_lens(name))
+    found = sampling_map() if name is None else sampling_map(open_lens(name))
     values: dict[str, Any] = vars(found)
     if output is not None and output.suffix.lower() == ".png":
         write_beside(output, lambda handle: draw_sampling(handle, found))

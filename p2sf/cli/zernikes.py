@@ -8,11 +8,11 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 
 from p2sf.camera import set_up
+from p2sf.cli.cautions import open_lens
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, check_output
 from p2sf.cli.screen import FILLED, Row, heading, print_json, print_table, warn
 from p2sf.cli.spots import Clip
 from p2sf.files.writing import write_beside
-from p2sf.lensfile.library import find_lens
 from p2sf.pupil.zernike_terms import ZernikeOrder
 from p2sf.raytrace.zernike_fit import USUAL_TERMS, ZernikeFit, zernike_fit
 
@@ -38,7 +38,7 @@ def zernike(
     pupil, the terms are made orthogonal over that part (Gram–Schmidt).
     """
     check_output(output, (".csv",), lens)
-    setup = set_up(find_lens(lens), request)
+    setup = set_up(open_lens(lens), request)
     found = zernike_fit(setup.lens, setup.source, basis, terms, clip)
     if output:
         write_csv(found, output)

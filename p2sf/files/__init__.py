@@ -1,4 +1,4 @@
-"""Files written atomically, and files of strangers read within limits."""
+"""Files written atomically, and files of unknown origin read within limits."""
 
 from p2sf.files.atomic import DAMAGED, write_whole
 from p2sf.files.reading import read_arrays

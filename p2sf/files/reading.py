@@ -1,4 +1,4 @@
-"""Files of strangers: what one may cost is checked by its kind, its size and what it declares, before it is paid.
+"""Files of unknown origin: what one may cost is checked by its kind, its size and what it declares, before it is paid.
 
 Every reader opens its files here. What is refused is an OSError, as for a missing file, or a ValueError where the
 content is wrong; `reasons.reason` says why.

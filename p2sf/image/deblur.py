@@ -8,6 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import product
 from math import ceil, sqrt
+from typing import NamedTuple
 
 import numpy as np
 
@@ -79,8 +80,21 @@ def photo_statistics(values: np.ndarray, lattice: Lattice, noise: float | None =
     return PhotoStatistics(low, high, falloffs, strengths)
 
 
-def _fit_spectrum(plane: np.ndarray, lattice: Lattice, channel: int, noise: float | None) -> tuple[float, ...]:
-    """Return the falloff, the square of the noise, the least power of the scene's share, and the scene's variance.
+class SpectrumFit(NamedTuple):
+    """What a photo's spectrum tells of one channel.
+
+    The ``falloff`` of the scene's, the ``square`` of the noise, the ``least`` power of the scene's share, and the
+    scene's variance, its ``scale``.
+    """
+
+    falloff: float
+    square: float
+    least: float
+    scale: float
+
+
+def _fit_spectrum(plane: np.ndarray, lattice: Lattice, channel: int, noise: float | None) -> SpectrumFit:
+    """Return the fit of the mean spectrum of one channel.
 
     All that a known ``noise`` does not explain is the scene's.
     """
@@ -107,7 +121,7 @@ def _fit_spectrum(plane: np.ndarray, lattice: Lattice, channel: int, noise: floa
         model = scale * shape_of + square
         likelihood = float((np.log(model) + found / model).sum())
         fits.append((likelihood, falloff, square, scale * float(shape_of.min()), scale))
-    return min(fits)[1:]
+    return SpectrumFit(*min(fits)[1:])
 
 
 def _mean_spectrum(plane: np.ndarray, side: int) -> tuple[np.ndarray, tuple[int, int]]:

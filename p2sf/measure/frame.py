@@ -12,6 +12,7 @@ from p2sf.messages import Message
 from p2sf.parameters import check_positive
 
 FEWEST_FLAT = 3  # pixels side by side of one value that make a flat top
+AROUND = 3  # pixels about four equal ones by which a computed point is told
 NEAR_TOP = 0.02  # of the peak's height: the pixels just below a top
 MAD = 1.4826  # median absolute deviation to standard deviation of a normal distribution
 
@@ -132,18 +133,29 @@ class Frame:
         """Return the counts at which pixels were clipped, told by flat tops; inf where there are none.
 
         That is the highest value, if more pixels have it than there are just below it, some of them side by side: the
-        top of a smooth peak has few pixels, and fewer the higher.
+        top of a smooth peak has few pixels, and fewer the higher. Four equal ones about the middle of a point that is
+        symmetric to its last digit are none: such a point is computed, and its middle lies between them.
         """
         from scipy import ndimage
 
         top = float(np.nanmax(self.values[np.isfinite(self.values)]))
         at, under = self.values == top, self.values < top
-        if at.sum() < FEWEST_FLAT or not under.any():
+        if at.sum() < FEWEST_FLAT or not under.any() or self._symmetric_about(at):
             return inf
         below = min(float(self.values[under].max()), top - NEAR_TOP * (top - self.background))
         labels, _ = ndimage.label(at)
         sizes = np.bincount(labels.ravel())[1:]
         return top if sizes.max() >= FEWEST_FLAT and at.sum() > (under & (self.values >= below)).sum() else inf
+
+    def _symmetric_about(self, at: np.ndarray) -> bool:
+        """Return whether these pixels are two by two, and those around them the same when turned by half a turn."""
+        rows, columns = np.nonzero(at)
+        top, left = int(rows.min()), int(columns.min())
+        low_row, low_column = top - AROUND, left - AROUND
+        if at.sum() != 4 or not at[top : top + 2, left : left + 2].all() or min(low_row, low_column) < 0:
+            return False
+        around = self.values[low_row : top + 2 + AROUND, low_column : left + 2 + AROUND]
+        return around.shape == (2 + 2 * AROUND,) * 2 and np.allclose(around, around[::-1, ::-1], rtol=1e-9, atol=0)
 
     @property
     def clipped(self) -> Message | None:

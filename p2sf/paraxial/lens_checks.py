@@ -26,7 +26,7 @@ def lens_checks(lens: Lens) -> tuple[Message, ...]:
     """
     rims = (_rim_beyond_its_sphere(number, surface) for number, surface in enumerate(lens.surfaces, 1))
     shapes = (_rim_beyond_its_shape(number, surface) for number, surface in enumerate(lens.surfaces, 1))
-    media = (*_negative_glass(lens), _nothing_bends(lens), _unknown_absorption(lens))
+    media = (*negative_glass(lens), _nothing_bends(lens), _unknown_absorption(lens))
     found = (*rims, *shapes, _stop_beyond_its_sphere(lens), *media)
     return (*(warning for warning in found if warning), *steps_between(lens))
 
@@ -84,7 +84,7 @@ def _stop_beyond_its_sphere(lens: Lens) -> Message | None:
     )
 
 
-def _negative_glass(lens: Lens) -> Iterator[Message]:
+def negative_glass(lens: Lens) -> Iterator[Message]:
     """Yield a warning for each glass of negative thickness; in air a negative thickness describes a virtual object."""
     index = np.abs(indices(lens, lens.reference_wavelength_um))
     for number, gap in enumerate(lens.gaps[:-1], 1):

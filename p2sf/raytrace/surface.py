@@ -37,8 +37,8 @@ class Status(IntEnum):
     REFUSED = 4
     UNAIMED = 5
     EVANESCENT = 6
-    OPAQUE = 8
     CLIPPED_BESIDE = 7  # on the left or right of a rectangle: apart, since the clear part has a corner where they meet
+    OPAQUE = 8
 
 
 AT_RIM = Status.CLIPPED, Status.CLIPPED_BESIDE

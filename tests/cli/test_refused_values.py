@@ -5,6 +5,8 @@ import pytest
 from p2sf import Aperture, GeometryError, Lens, RequestError, Surface
 from p2sf.camera import Camera
 from p2sf.cli import main
+from p2sf.glass.media import ConstantIndex
+from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.parameters import MASK_PARAMETERS
 
 SINGLET = """
@@ -62,3 +64,14 @@ def test_glass_of_negative_thickness_is_pointed_out_with_its_psf(thickness, warn
     file.write_text(SINGLET.format(thickness=thickness), "utf-8")
     assert main(["psf", str(file), "--pixels", "16"]) == 0
     assert ("opposite to the direction of light" in capsys.readouterr().err) is warned
+
+
+@pytest.mark.parametrize("command", ["info", "coefficients", "psf", "spot", "zernike", "nodes"])
+def test_every_command_warns_of_a_glass_of_negative_thickness(command, tmp_path, capsys):
+    surfaces = Surface(50.0, -3.0, ConstantIndex(1.5)), Surface(-50.0, 48.0)
+    lens = Lens(surfaces, Aperture("stop_semi_diameter", 4.0), 1, fields_deg=(0.0, 3.0))
+    path = tmp_path / "negative.toml"
+    path.write_text(lens_to_toml(lens))
+    assert main([command, str(path)]) in (0, None)
+    said = capsys.readouterr().err
+    assert said.count("the glass behind surface 1 has a thickness of -3 mm") == 1

@@ -13,7 +13,7 @@ from tests.support.tiers import in_tiers
 NA, WAVE_UM, PIXEL_UM = 0.125, 0.55, 2.2
 
 
-def light(waves, side=40):
+def light(waves, side=40, middle=20.0):
     """Return the light on pixels of a point with W40, W31, W22, W20 of ``waves``, peak 1: a plain sum over the disc."""
     point, weight = leggauss(48)
     rho, theta = np.sqrt((point + 1) / 2), 2 * np.pi * np.arange(144) / 144
@@ -24,7 +24,7 @@ def light(waves, side=40):
         2j * np.pi * (w40 * square**2 + w31 * square * eta + w22 * eta**2 + w20 * square)
     )
     within, share = leggauss(4)
-    axis = ((np.arange(side) - side // 2)[:, None] + within / 2).ravel() * PIXEL_UM * 2 * np.pi * NA / WAVE_UM
+    axis = ((np.arange(side) - middle)[:, None] + within / 2).ravel() * PIXEL_UM * 2 * np.pi * NA / WAVE_UM
     field = (np.exp(1j * np.outer(axis, eta)) * wave) @ np.exp(1j * np.outer(xi, axis))
     summed = np.einsum("ypxq,p,q->yx", (np.abs(field) ** 2).reshape(side, 4, side, 4), share, share)
     return summed / summed.max()
@@ -61,9 +61,28 @@ def test_tops_that_no_one_clipped_are_not_flat(waves):
     geometry = FrameGeometry(40, 40, PIXEL_UM)
     for values in (light(waves), np.round(255 * light(waves)), np.round(200 * with_noise(light(waves), 0.01, 3))):
         assert Frame(values, geometry).clipped is None
+
+
+@pytest.mark.parametrize("waves", [(0.0, 0.0, 0.0, 1.0), (0.812, 0.3, -0.2, -1.9)])
+def test_a_wide_top_of_nine_clipped_pixels_is_flat(waves):
+    geometry = FrameGeometry(40, 40, PIXEL_UM)
+    for values in (light(waves), np.round(255 * light(waves)), np.round(200 * with_noise(light(waves), 0.01, 3))):
         level = np.sort(values.ravel())[-9]
-        if level > 0.3 * values.max():  # nine pixels of a wide top, side by side
-            assert Frame(np.minimum(values, level), geometry).clipped is not None
+        assert level > 0.3 * values.max(), "a wide top"
+        assert Frame(np.minimum(values, level), geometry).clipped is not None
+
+
+@pytest.mark.parametrize("waves", [(0.0, 0.0, 0.0, 0.0), (0.2, 0.0, 0.0, -0.2)])
+def test_four_equal_tops_of_a_point_between_pixels_are_not_clipped_and_four_clipped_ones_are(waves):
+    geometry = FrameGeometry(40, 40, PIXEL_UM)
+    between = light(waves, middle=19.5)
+    tops = between >= between.max() * (1 - 1e-12)
+    assert tops.sum() == 4, "the middle of the point lies between four pixels"
+    between[tops] = between.max()  # to the last bit, as counts are
+    assert Frame(between, geometry).clipped is None
+    beside = light(waves, middle=19.6)
+    level = np.sort(beside.ravel())[-4]
+    assert Frame(np.minimum(beside, level), geometry).clipped is not None
 
 
 def test_a_frame_whose_every_point_is_clipped_gives_no_numbers():
