@@ -185,7 +185,7 @@ class FieldRectangle:
 FieldAxes = FieldLine | FieldRectangle
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Axes:
     """Middle and half-width of s (per mm), fields and wavelength (µm), and the place of the pupil, where s starts.
 

@@ -40,7 +40,7 @@ DEPTHS = ("8", "16", "half", "float")
 ORIENTATION, SIDEWAYS = 274, (5, 6, 7, 8)  # the tag of Exif, and its values for a picture lying on its side
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Photo:
     """A picture in linear light, (rows, columns, channels) float32, white at 1; row 0 is the top.
 

@@ -69,7 +69,7 @@ class WavefrontMap:
     shade: np.ndarray | None = None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class PassingCells:
     """Which cells of a grid over the pupil let rays pass, (count, count): a clear part of any shape, as `ClearRim`."""
 

@@ -10,6 +10,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from p2sf.arguments import same_values
 from p2sf.conventions import FloatOrArray, anywhere, is_number, vergence, write_protect
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, indices, surface_power
@@ -50,6 +51,8 @@ class BasisRays:
 @dataclass(frozen=True)
 class CardinalPoints:
     """Focal length −1/C and cardinal points, mm, positive to the right of the named vertex."""
+
+    __eq__ = same_values
 
     effective_focal_length: np.ndarray
     back_focal_distance: np.ndarray

@@ -9,6 +9,7 @@ from typing import Literal
 
 import numpy as np
 
+from p2sf.arguments import same_values
 from p2sf.conventions import FloatOrArray, anywhere, slope_from_degrees, vergence
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Aperture, Lens
@@ -35,6 +36,8 @@ class Stop:
 
     ``surface``, ``semi_diameter`` and ``limiting_surface`` are numbers or arrays over (depth, wavelength).
     """
+
+    __eq__ = same_values
 
     surface: np.ndarray
     semi_diameter: np.ndarray
@@ -64,6 +67,8 @@ class Pupils:
     ``upright``: −1 if the entrance pupil is an inverted image of the stop, as in a relay, else 1.
     """
 
+    __eq__ = same_values
+
     entrance_from_first: np.ndarray
     entrance_diameter: np.ndarray
     exit_from_last: np.ndarray
@@ -79,6 +84,8 @@ class ParaxialRays:
     ``invariant``: the Lagrange invariant, n·(entrance-pupil radius) for a chief ray of unit slope.
     ``wavelength_um``: in the shape of one row of ``index``.
     """
+
+    __eq__ = same_values
 
     y: np.ndarray
     nu: np.ndarray

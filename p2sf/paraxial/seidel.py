@@ -13,6 +13,7 @@ from typing import Literal, cast
 
 import numpy as np
 
+from p2sf.arguments import same_values
 from p2sf.conventions import UM_PER_MM, FloatOrArray
 from p2sf.errors import GeometryError
 from p2sf.html import cell, html_table
@@ -27,6 +28,8 @@ from p2sf.paraxial.pupils import ParaxialRays, Stop, paraxial_rays
 @dataclass(frozen=True)
 class SeidelSums:
     """S_I … S_V per surface in mm at one field, surface axis first, then of a curved sensor; ``.total()`` sums them."""
+
+    __eq__ = same_values
 
     spherical: np.ndarray
     coma: np.ndarray
@@ -50,6 +53,8 @@ class Coefficients:
     Arrays broadcast over (depth, field, wavelength). ``reduced_slope`` is the signed n'u' of the marginal
     ray; ``image_distance`` and ``image_height`` (paraxial chief ray on the sensor) are mm.
     """
+
+    __eq__ = same_values
 
     w40: np.ndarray
     w31: np.ndarray
@@ -98,6 +103,8 @@ class ChromaticSums:
     ``axial``/2 is the difference of defocus at the rim of the pupil, shorter minus longer wavelength, as path, and
     ``lateral`` that of tilt.
     """
+
+    __eq__ = same_values
 
     axial: np.ndarray
     lateral: np.ndarray

@@ -5,6 +5,7 @@ from math import isfinite
 
 import numpy as np
 
+from p2sf.arguments import same_values
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import ParaxialRays, Stop
@@ -13,6 +14,8 @@ from p2sf.paraxial.pupils import ParaxialRays, Stop
 @dataclass(frozen=True)
 class YBar:
     """Points (ȳ, y) in mm in the order light meets them, and a name for each; ``stop`` is the stop's place in them."""
+
+    __eq__ = same_values
 
     chief_y: np.ndarray
     y: np.ndarray

@@ -97,7 +97,7 @@ def psf_of_opd(
     return warn_of_window(psf.with_fields(provenance={"wavefront": plain(given)}), 5)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Pupil:
     """A wavefront in waves and the amplitude on its cells; ``light``: Σ amplitude² over (Σ amplitude)²."""
 

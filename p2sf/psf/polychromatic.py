@@ -34,7 +34,7 @@ Renderer = Callable[[Lens, Source, int, float], Psf]
 """A function that renders one PSF: (lens, source at one wavelength, pixels, µm per pixel)."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ColourPsf:
     """X, Y, Z of the image of a point, ``xyz`` (y, x, 3), rows +y; sample N//2 is the chief ray of the source's colour.
 

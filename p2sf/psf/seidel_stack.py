@@ -53,7 +53,7 @@ Part = tuple[slice | np.ndarray, RowNodes]
 """Indices of PSFs that are summed together, and their nodes."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class SummedStack:
     """PSFs (…, pixels, pixels) of unit sum; their sums in units of the unaberrated peak; the nodes used."""
 

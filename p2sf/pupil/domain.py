@@ -229,7 +229,7 @@ def ring_counts(rho: np.ndarray, total: int) -> np.ndarray:
     return counts
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ClearNodes:
     """Nodes (ξ, η), each (nodes,), over the open part of the pupil, with weights of unit sum, some of them negative.
 

@@ -27,7 +27,7 @@ AT_ONCE = 2**22  # numbers in one block of a summed table
 Nodes = TypeVar("Nodes")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class DiscNodes:
     """Nodes on the half disc ξ ≥ 0, shape (nodes,); the weights count the mirror half too and sum to 1."""
 

@@ -72,7 +72,7 @@ class Sources:
         return cls(*np.array([(s.depth_mm, s.field_slope, s.wavelength_um) for s in sources]).T)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class PupilRays:
     """Rays where they cross the plane of the paraxial entrance pupil.
 
@@ -112,7 +112,7 @@ class PupilRays:
         return unit
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Entrance:
     """The paraxial entrance pupil as a source sees it; every array ends in a ray axis of length one.
 

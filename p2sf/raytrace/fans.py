@@ -12,7 +12,7 @@ from p2sf.raytrace.pencil import Rays, exit_radius, opd_on_sphere, pencil
 from p2sf.raytrace.spot import mask_of_rays
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Fan:
     """A quantity along one line of the pupil: ``pupil`` −1…1, ``tangential`` along η, ``sagittal`` along ξ.
 

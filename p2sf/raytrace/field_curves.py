@@ -33,7 +33,7 @@ class Foci(NamedTuple):
     tangential: np.ndarray
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Heights:
     """Heights of chief rays on the sensor, mm: by exact rays (NaN where lost), to third order, and paraxially.
 
@@ -92,7 +92,7 @@ def real_foci(lens: Lens, source: Source, field_slope: ArrayLike, stop: Stop | N
     return Foci(*(np.where(lost, np.nan, -((a + d) / 2 + side * apart) - chief_z) for side in (1, -1)))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class FocalSurface:
     """The surface of best focus over a grid of fields (x, y), in the axes of the sensor, mm.
 

@@ -105,7 +105,7 @@ def levels_for(lens: Lens) -> tuple[Level, ...]:
     return levels(lens.aim, lens.pupil_domain)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class FittedPencil:
     """Coefficients of the orthonormal polynomials of `zernike`: phase in waves, fx and fy in cycles per µm.
 
@@ -205,7 +205,7 @@ def _counts_of(place: int) -> tuple[int, int]:
     return LEVELS[place].numbers, WEIGHTED[place].numbers
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class CheckRays:
     """Rays through the open part of a mask that check a fit, and the share of light of each."""
 
@@ -273,7 +273,7 @@ def level_rays(level: Level) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return level.basis.domain.sampling_rays(level.radii, level.directions)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Projection:
     """The terms of phase, fx and fy of a level at its rays, and their least-squares inverses.
 
@@ -316,7 +316,7 @@ def _slopes_of_phase(rays: Rays, level: Level, fx: np.ndarray, fy: np.ndarray) -
     return -(x * (fx @ fx_xi) + y * (fy @ fy_xi)), -(x * (fx @ fx_eta) + y * (fy @ fy_eta))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class PencilForms:
     """The coefficients of one or several pencils, (…, terms), as in `FittedPencil`, and their residuals, (…)."""
 

@@ -30,7 +30,7 @@ MEAN_ROUNDING = 1e-14  # of the largest term: some fifty roundings, all that a m
 WEIGHT_ROUNDING = 1e-6  # of the largest term: the weights of aimed rays are differences, good to that
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Spot:
     """Where rays meet the sensor, µm from the chief ray, and figures of all the light, in µm.
 

@@ -51,7 +51,7 @@ BLUR_NODES = 16, 40  # carry the weight and the area of a fit, which are smooth
 GAUSS_EXCESS = 1.5  # Gauss–Legendre nodes per uniform direction for the same harmonics: some π/2
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ClearPart:
     """The clear part of the pupil: its centre on the η axis, and the corners' angles from +η, 0 and π included.
 

@@ -34,7 +34,7 @@ Setting = tuple[float, int, np.dtype]
 """Parameters of kernels besides the nodes: cycles per unit pupil radius and pixel, pixels, precision."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class DftKernels:
     """Real kernels at offsets 0, 1, … samples: ``across`` (rows or 1, columns, x); cos and sin, ``up`` (y, rows)."""
 
@@ -43,7 +43,7 @@ class DftKernels:
     up_odd: np.ndarray
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Monomials:
     """Factors of W40, W31, W22 and W20 + Wd at η, then at −η, (4, 2·nodes); half the weights, (rows, columns).
 

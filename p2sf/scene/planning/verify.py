@@ -12,7 +12,7 @@ from p2sf.scene.planning.study import distance, weighted_sum
 from p2sf.threads import map_threads, one_blas_thread
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Verdict:
     """Measured relative errors at random points, (points,), and where: (x mm, y mm, vergence per mm, channel).
 
