@@ -18,6 +18,7 @@ from p2sf.errors import RequestError
 from p2sf.export.psf_set import PIXEL_UM, PIXELS, PixelGrid, PsfSet, SetAxes, axes_of, left_out, psf_set
 from p2sf.export.psf_set_files import WRITERS, table, write_psf_set
 from p2sf.image import Progress
+from p2sf.io.record import describe_many
 from p2sf.messages import ParameterName
 from p2sf.parameters import check_angle, check_positive
 from p2sf.spans import depths, numbers
@@ -51,7 +52,7 @@ def write_set(
     with percent_line() as tell:
         found = psf_set(setup.lens, _axes(setup, several), grid, picture.clip, Progress(tell))
     if output:
-        write_psf_set(found, output)
+        write_psf_set(found, output, describe_many(setup))
     warn(left_out(found))
     if as_json:
         return print_json(_record(found, output))

@@ -1,5 +1,6 @@
 """`p2sf plan` and `p2sf image`: what a scene requires, and its picture through the lens."""
 
+import json
 import sys
 from dataclasses import dataclass, fields, replace
 from math import inf
@@ -10,7 +11,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from cyclopts import Parameter
 
-from p2sf.camera import Camera, explicit_values
+from p2sf.camera import Camera, explicit_values, set_up
 from p2sf.cli.cautions import open_lens
 from p2sf.cli.options import (
     AS_IN_ITS_FILE,
@@ -24,11 +25,12 @@ from p2sf.cli.options import (
 )
 from p2sf.cli.screen import print_json, print_table, warn
 from p2sf.errors import RequestError
-from p2sf.files.writing import write_beside
+from p2sf.files.writing import plain, write_beside
 from p2sf.image.charts import CHARTS, draw_chart
 from p2sf.image.exposure import check_seed, expose, raw_numbers
 from p2sf.io.depth_files import read_scene_depths
 from p2sf.io.photo_files import WRITABLE, Photo, check_ending, kept_depth, read_photo, stored_as, write_photo
+from p2sf.io.record import RECORD, describe_many
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message, ParameterName
 from p2sf.raytrace.focusing import object_distance
@@ -232,7 +234,8 @@ def image(
     else:
         encoding, depth = stored_as(output, source.encoding), shown.depth or kept_depth(output, source)
         _warn_of_white(output, formed, depth)
-        write_photo(output, _for_file(formed, asked), encoding, depth)
+        texts = {RECORD: json.dumps(plain(_facts(glass, asked, scene, picture) | {"image": facts}))}
+        write_photo(output, _for_file(formed, asked), encoding, depth, texts)
     rows, columns = formed.shape[:2]
     if as_json:
         about = {"file": str(output), "aim": asked.camera(glass).aim, "rows": rows, "columns": columns}
@@ -292,6 +295,12 @@ def _write_raw(output: Path, reading: np.ndarray, sensor: Sensor) -> None:
     dark, full = np.square(sensor.noise([0.0, 1 / sensor.fill_factor])).tolist()
     white = sensor.black_level + (sensor.steps or 0)
     write_dng(output, numbers, RawLevels(sensor.black_level, white, sensor.mosaic, (full - dark, dark)))
+
+
+def _facts(glass: Lens, asked: Scene, scene: Path, picture: str) -> dict[str, Any]:
+    """Return what a formed picture states: lens, camera and versions, and the files of scene and picture."""
+    setup = set_up(glass, asked.request)
+    return {**describe_many(setup), "scene": {"file": str(scene), "name": asked.name, "picture": picture}}
 
 
 def _short(value: object) -> str:

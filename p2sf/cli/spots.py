@@ -13,7 +13,7 @@ from p2sf.cli.cautions import crossed_surfaces, open_lens
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, check_output, check_whole
 from p2sf.cli.screen import FILLED, heading, print_json, print_table, warn
 from p2sf.files.writing import plain, write_beside, write_json
-from p2sf.io.record import describe
+from p2sf.io.record import csv_head, describe
 from p2sf.metrics.perfect import airy_radius_um
 from p2sf.raytrace.field_geometry import cone
 from p2sf.raytrace.spot import DRAWN_RINGS
@@ -83,7 +83,8 @@ def trace_spot(setup: Setup, rings: int, clip: bool) -> tuple[np.ndarray, dict[s
 
 def _write_csv(points: np.ndarray, record: dict[str, Any], output: Path) -> None:
     lines = ["x_um,y_um", *(f"{x!r},{y!r}" for x, y in points.tolist())]
-    write_beside(output, lambda handle: handle.write(("\n".join(lines) + "\n").encode()))
+    text = csv_head(record) + "\n".join(lines) + "\n"
+    write_beside(output, lambda handle: handle.write(text.encode()))
 
 
 def _write_json(points: np.ndarray, record: dict[str, Any], output: Path) -> None:

@@ -13,6 +13,7 @@ from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, chec
 from p2sf.cli.screen import FILLED, Row, heading, print_json, print_table, warn
 from p2sf.cli.spots import Clip
 from p2sf.files.writing import write_beside
+from p2sf.io.record import csv_head, describe
 from p2sf.pupil.zernike_terms import ZernikeOrder
 from p2sf.raytrace.zernike_fit import USUAL_TERMS, ZernikeFit, zernike_fit
 
@@ -41,7 +42,7 @@ def zernike(
     setup = set_up(open_lens(lens), request)
     found = zernike_fit(setup.lens, setup.source, basis, terms, clip)
     if output:
-        write_csv(found, output)
+        write_csv(found, describe(setup), output)
     if as_json:
         file = None if output is None else str(output)
         return print_json({"file": file, "aim": setup.lens.aim, **record(found)})
@@ -83,9 +84,11 @@ def record(found: ZernikeFit) -> dict[str, Any]:
     }
 
 
-def write_csv(found: ZernikeFit, output: Path) -> None:
-    """Write the terms, one row each, with m negative for sin |m|θ, θ from +x; ExportError."""
+def write_csv(found: ZernikeFit, about: dict[str, Any], output: Path) -> None:
+    """Write the terms, one row each, with m negative for sin |m|θ, θ from +x, behind what they are of; ExportError."""
     text = io.StringIO()
+    figures = {name: value for name, value in record(found).items() if name != "terms"}
+    text.write(csv_head({**about, "zernike": figures}))
     rows = csv.DictWriter(text, ("term", "n", "m", "name", "waves", "share"), lineterminator="\n")
     rows.writeheader()
     rows.writerows(record(found)["terms"])

@@ -17,6 +17,7 @@ from p2sf.export.psf_set import PsfSet
 from p2sf.export.tiff import write_pages
 from p2sf.files.writing import plain, write_beside
 from p2sf.io.fits_psf import META
+from p2sf.io.record import csv_head
 from p2sf.psf.record import CONVENTIONS
 from p2sf.version import program_version
 
@@ -27,7 +28,7 @@ Meta = dict[str, Any]
 def write_psf_set(psfs: PsfSet, path: PathLike, meta: dict[str, Any] | None = None) -> Path:
     """Write a set by the ending of ``path``, whole or not at all; ExportError.
 
-    ``meta``, any facts as JSON has them, is stored with it, but not in a .csv, a table alone, and a .mat.
+    ``meta``, any facts as JSON has them, is stored with it: of a .csv in a line before its table.
     """
     check_set_ending(path)
     return WRITERS[Path(path).suffix.lower()](psfs, path, plain(meta or {}))
@@ -74,16 +75,20 @@ def arrays(psfs: PsfSet) -> dict[str, np.ndarray]:
     }
 
 
+def _told(psfs: PsfSet, meta: Meta) -> str:
+    return json.dumps(plain(about(psfs)) | meta, ensure_ascii=False)
+
+
 def _write_npz(psfs: PsfSet, path: PathLike, meta: Meta) -> Path:
-    text = np.array(json.dumps(plain(about(psfs)) | meta, ensure_ascii=False))
-    found: dict[str, Any] = {**arrays(psfs), "method": psfs.methods, "meta": text}
+    found: dict[str, Any] = {**arrays(psfs), "method": psfs.methods, "meta": np.array(_told(psfs, meta))}
     return write_beside(path, lambda handle: np.savez_compressed(handle, **found))
 
 
-def _write_mat(psfs: PsfSet, path: PathLike, _: Meta) -> Path:
+def _write_mat(psfs: PsfSet, path: PathLike, meta: Meta) -> Path:
     from scipy.io import savemat
 
-    found = {**arrays(psfs), "method": psfs.methods.astype(object), "meta": plain(about(psfs))}
+    facts = {"meta": plain(about(psfs)), "record": _told(psfs, meta)}
+    found = {**arrays(psfs), "method": psfs.methods.astype(object), **facts}
     return write_beside(path, lambda handle: savemat(handle, found, do_compression=True, oned_as="row"))
 
 
@@ -110,8 +115,9 @@ def _write_fits(psfs: PsfSet, path: PathLike, meta: Meta) -> Path:
     return write_image(psfs, path, header, {"FIGURES": columns})
 
 
-def _write_csv(psfs: PsfSet, path: PathLike, _: Meta) -> Path:
+def _write_csv(psfs: PsfSet, path: PathLike, meta: Meta) -> Path:
     text = io.StringIO()
+    text.write(csv_head(plain(about(psfs)) | meta))
     csv.writer(text, lineterminator="\n").writerows(table(psfs))
     return write_beside(path, lambda handle: handle.write(text.getvalue().encode()))
 

@@ -1,6 +1,7 @@
 """The facts that a file carries beside its numbers: lens, setup, units, versions, and those of a PSF."""
 
 import hashlib
+import json
 from collections.abc import Mapping
 from dataclasses import fields
 from functools import lru_cache
@@ -23,6 +24,8 @@ FORMER = {"tolerance": "error"}
 """Fields of files before 0.3 by their names today."""
 FIELDS = frozenset(each.name for each in fields(Psf))
 MAPS = ("phase_map", "amplitude_map")
+RECORD = "p2sf-record"
+"""The name of the text in a formed picture that says what it is of."""
 OF_THE_FILE = ("psf", "state")
 """What a file of a PSF states besides its provenance: what the PSF says about itself, and the window's state."""
 
@@ -52,6 +55,18 @@ def describe(setup: Setup) -> dict:
         }
     )
     return known
+
+
+def describe_many(setup: Setup) -> dict:
+    """Return the facts of `describe` that hold for every depth, field and wavelength of a set; its axes have those."""
+    known = describe(setup)
+    own = ("depth_mm", "field_deg", "azimuth_deg", "wavelength_nm")
+    return {**known, "setup": {name: value for name, value in known["setup"].items() if name not in own}}
+
+
+def csv_head(meta: Mapping[str, Any]) -> str:
+    """Return the line of a .csv, before its names, that holds its facts; readers skip lines that begin with #."""
+    return f"# meta: {json.dumps(plain(meta), ensure_ascii=False)}\n"
 
 
 def setting(lens: Lens, stop: Stop) -> dict:

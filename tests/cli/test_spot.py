@@ -60,7 +60,7 @@ def test_aiming_at_the_stop_changes_the_spot(answer):
 
 def test_files_hold_the_points(answer, tmp_path):
     found = answer(*PLACE, "-o", tmp_path / "spot.csv")
-    table = np.genfromtxt(tmp_path / "spot.csv", delimiter=",", names=True)
+    table = np.genfromtxt(tmp_path / "spot.csv", delimiter=",", names=True, skip_header=1)
     np.testing.assert_array_equal(np.stack([table["x_um"], table["y_um"]], -1), found["points_um"])
     answer(*PLACE, "-o", tmp_path / "spot.json")
     kept = json.loads((tmp_path / "spot.json").read_text(encoding="utf-8"))

@@ -30,7 +30,7 @@ def test_a_clipped_pupil_says_what_the_terms_are_orthogonal_over(answer, capsys)
 def test_csv_has_a_row_for_each_term(tmp_path, capsys):
     path = tmp_path / "terms.csv"
     assert main([*PLACE, "-o", str(path)]) == 0
-    rows = list(csv.DictReader(path.read_text(encoding="utf-8").splitlines()))
+    rows = list(csv.DictReader(path.read_text(encoding="utf-8").splitlines()[1:]))
     assert [row["term"] for row in rows] == [str(number) for number in range(1, 38)]
     assert float(rows[6]["waves"]) == pytest.approx(-0.0685, abs=1e-4) and rows[6]["name"] == "coma"
 

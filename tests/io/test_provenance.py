@@ -190,3 +190,77 @@ def test_a_file_of_a_psf_is_still_one_table(psf, tmp_path):
     text = psf.save(tmp_path / "psf.csv").read_text(encoding="utf-8")
     rows = list(csv.reader(io.StringIO("".join(x for x in text.splitlines(True) if not x.startswith("#")))))
     assert len(rows) == 17 and {len(row) for row in rows} == {17}
+
+
+ASKED = "--focus-mm 1500 --f-number 6.7 --blades 7".split()
+SOURCE = "--depth-mm 2100 --field-deg 4 --wavelength-nm 546".split()
+
+
+def csv_record(path):
+    return json.loads(path.read_text(encoding="utf-8").splitlines()[0].removeprefix("# meta: "))
+
+
+def check_camera(record):
+    """Compare with what `ASKED` says, word by word."""
+    setup = record["setup"]
+    assert (setup["focus_mm"], setup["f_number"]) == pytest.approx((1500.0, 6.7), rel=1e-12)
+    assert setup["mask"] == {"blades": 7} and record["lens"]["name"] == "tessar"
+    assert record["versions"]["p2sf"] == p2sf.__version__
+
+
+@pytest.mark.parametrize("command", ["spot", "zernike"])
+def test_tables_of_rays_say_what_they_are_of(command, tmp_path):
+    path = tmp_path / "table.csv"
+    assert main([command, "tessar", *ASKED, *SOURCE, "-o", str(path)]) == 0
+    record = csv_record(path)
+    check_camera(record)
+    setup = record["setup"]
+    assert (setup["depth_mm"], setup["field_deg"], setup["wavelength_nm"]) == pytest.approx((2100, 4, 546), rel=1e-12)
+    rows = [line for line in path.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
+    if command == "spot":
+        places = np.array([[float(x) for x in row.split(",")] for row in rows[1:]])
+        assert record["spot"]["rays"] - record["spot"]["lost"] == len(places)
+    else:
+        assert record["zernike"]["basis"] == "noll" and rows[0].startswith("term,n,m")
+
+
+@pytest.mark.parametrize("ending", [".npz", ".tif", ".fits", ".mat", ".csv"])
+def test_a_set_of_psfs_says_what_it_is_of(ending, tmp_path):
+    """Its depths, fields and colours stand in its axes, and no single one in the setting."""
+    path = tmp_path / f"set{ending}"
+    axes = "--depths-mm 1000,inf --fields-deg 0,4 --wavelengths-nm 546 --pixels 9".split()
+    assert main(["psf", "tessar", *ASKED, *axes, "-o", str(path)]) == 0
+    if ending == ".npz":
+        with np.load(path) as found:
+            record = json.loads(str(found["meta"]))
+    elif ending == ".tif":
+        with pytest.importorskip("tifffile").TiffFile(path) as file:
+            record = json.loads(file.imagej_metadata["Info"])
+    elif ending == ".fits":
+        with pytest.importorskip("astropy.io.fits").open(path) as file:
+            record = json.loads(file[0].header["P2SFMETA"])
+    elif ending == ".mat":
+        record = json.loads(str(pytest.importorskip("scipy.io").loadmat(path, simplify_cells=True)["record"]))
+    else:
+        record = csv_record(path)
+    check_camera(record)
+    assert not {"depth_mm", "field_deg", "wavelength_nm"} & set(record["setup"])
+
+
+def test_a_formed_picture_says_what_it_is_of(tmp_path):
+    from PIL import Image
+
+    scene, path = tmp_path / "scene.toml", tmp_path / "out.png"
+    scene.write_text(
+        'name = "wall"\nfocus_mm = 1500\nf_number = 6.7\n'
+        "[sensor]\nrows = 24\ncolumns = 32\npixel_um = 40\n"
+    )
+    assert main(["image", "tessar", str(scene), "chart:star", "-o", str(path)]) == 0
+    with Image.open(path) as picture:
+        record = json.loads(picture.text["p2sf-record"])
+    assert (record["setup"]["focus_mm"], record["setup"]["f_number"]) == pytest.approx((1500.0, 6.7), rel=1e-12)
+    assert record["lens"]["name"] == "tessar" and record["scene"] == {
+        "file": str(scene),
+        "name": "wall",
+        "picture": "chart:star",
+    }

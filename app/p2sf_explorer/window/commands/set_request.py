@@ -9,6 +9,7 @@ from threading import Event
 from p2sf.export.psf_set import PIXELS, PixelGrid, SetAxes, axes_of, left_out, psf_set
 from p2sf.export.psf_set_files import HOLDING, check_set_ending, write_psf_set
 from p2sf.image import Progress
+from p2sf.io.record import describe_many
 from p2sf.messages import Message
 from p2sf.raytrace.focusing import object_distance
 from p2sf.spans import depths, numbers
@@ -114,9 +115,9 @@ def write_set(request: SetRequest, watch: Progress) -> tuple[Path, Message | Non
     Raises P2SFError, Cancelled among them.
     """
     state = request.state
-    lens = request_setup(state).lens
-    found = psf_set(lens, request.axes, request.grid, state.optics.clip, watch)
-    made = write_psf_set(found, request.path, {ENTRY: state_text(state)})
+    setup = request_setup(state)
+    found = psf_set(setup.lens, request.axes, request.grid, state.optics.clip, watch)
+    made = write_psf_set(found, request.path, {**describe_many(setup), ENTRY: state_text(state)})
     if not holds_state(made):
         write_state(state, state_beside(made), exported=made.name)
     return made, left_out(found)
