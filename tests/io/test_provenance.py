@@ -255,12 +255,12 @@ def test_a_formed_picture_says_what_it_is_of(tmp_path):
         'name = "wall"\nfocus_mm = 1500\nf_number = 6.7\n'
         "[sensor]\nrows = 24\ncolumns = 32\npixel_um = 40\n"
     )
-    assert main(["image", "tessar", str(scene), "chart:star", "-o", str(path)]) == 0
+    assert main(["image", "tessar", str(scene), "chart:checkerboard", "-o", str(path)]) == 0
     with Image.open(path) as picture:
         record = json.loads(picture.text["p2sf-record"])
     assert (record["setup"]["focus_mm"], record["setup"]["f_number"]) == pytest.approx((1500.0, 6.7), rel=1e-12)
     assert record["lens"]["name"] == "tessar" and record["scene"] == {
         "file": str(scene),
         "name": "wall",
-        "picture": "chart:star",
+        "picture": "chart:checkerboard",
     }
