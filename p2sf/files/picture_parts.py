@@ -1,5 +1,6 @@
 """The parts of PNG, JPEG and HEIF files, counted before Pillow walks through them: it keeps each, and has no end."""
 
+import re
 import struct
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -18,7 +19,8 @@ MOST_CHUNKS = 100_000  # of a PNG: 800 MB of picture at 8 kB a chunk, as libpng 
 BESIDE = 64_000_000  # bytes of a PNG beside its picture: profiles, texts, Exif; Pillow reads them all
 MOST_SEGMENTS = 10_000  # of a JPEG before its picture, a byte that belongs to none counted as one
 MOST_SCANS = 60  # of a JPEG and the small ones in it; progressive ones have some ten, each of which costs all pixels
-START_OF_SCAN, WITHOUT_LENGTH = 0xDA, {0x01, *range(0xD0, 0xD9)}  # ITU T.81, table B.1
+START_OF_SCAN, END, WITHOUT_LENGTH = 0xDA, 0xD9, {0x01, *range(0xD0, 0xD9)}  # ITU T.81, table B.1
+MARK = re.compile(rb"\xff[\xc0-\xcf\xd8-\xfe]")  # behind the first scan, where others stand within data
 
 
 @contextmanager
@@ -87,5 +89,19 @@ def _check_segments(stream: BinaryIO) -> None:
             break
     else:
         raise OversizedError(Message("no picture within {most} parts", most=MOST_SEGMENTS))
-    if 1 + stream.read().count(bytes((0xFF, START_OF_SCAN))) > MOST_SCANS:
-        raise OversizedError(Message("more than {most} passes over its pixels", most=MOST_SCANS))
+    stream.seek(-2, 1)  # back to the first scan
+    _check_scans(stream.read())
+
+
+def _check_scans(data: bytes) -> None:
+    """Raise OversizedError for too many scans up to the end of a JPEG's picture; phones append films behind that."""
+    place = scans = 0
+    for _ in range(MOST_SEGMENTS):
+        mark = MARK.search(data, place)
+        if mark is None or data[mark.end() - 1] == END:
+            return
+        scans += data[mark.end() - 1] == START_OF_SCAN
+        if scans > MOST_SCANS:
+            raise OversizedError(Message("more than {most} passes over its pixels", most=MOST_SCANS))
+        place = mark.end() + int.from_bytes(data[mark.end() : mark.end() + 2], "big")
+    raise OversizedError(Message("more than {most} parts", most=MOST_SEGMENTS))

@@ -1,10 +1,13 @@
 """PNG of 16 bits a sample, which Pillow reduces to 8 bits in colour pictures (ISO/IEC 15948)."""
 
+import os
 import struct
 import zlib
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+
+from p2sf.files.picture_parts import open_picture
 
 if TYPE_CHECKING:
     from PIL.ImageFile import ImageFile
@@ -27,13 +30,11 @@ def read_deep(picture: "ImageFile", colour_type: int) -> np.ndarray:
     the other byte of each pair, hence all of them in two passes; grey with alpha has four bytes a pixel, as RGBA of 8
     bits has. Raises as Pillow does.
     """
-    from PIL import Image
-
     if colour_type == GREY_ALPHA:
         return _unpacked(picture, "RGBA").view(">u2").astype(np.uint16)
     deep = _unpacked(picture, f"{picture.mode};16B").astype(np.uint16)
     deep <<= 8
-    with Image.open(picture.filename, formats=("PNG",)) as again:
+    with open_picture(os.fsdecode(picture.filename), ("PNG",)) as again:
         deep |= _unpacked(again, f"{picture.mode};16L")
     return deep
 

@@ -4,7 +4,9 @@ import struct
 import sys
 import time
 import tracemalloc
+import warnings
 import zlib
+from contextlib import nullcontext
 
 import numpy as np
 import pytest
@@ -12,9 +14,11 @@ import tifffile
 from PIL import Image, ImageOps
 
 from p2sf.errors import ExportError, P2SFError, RequestError
+from p2sf.files.picture_parts import MOST_SCANS
 from p2sf.io.photo_files import kept_depth, photo_shape, read_photo, read_samples, write_photo
 from p2sf.io.png16 import write_deep
 from p2sf.io.transfer import linear_from_srgb, srgb_from_linear
+from tests.fuzz.hostile import jpeg
 
 
 def picture(channels: int = 3) -> np.ndarray:
@@ -353,3 +357,36 @@ def test_transparency_that_is_left_out_is_told(tmp_path, kind, clear):
 def test_what_is_made_of_a_photo_keeps_its_bits(tmp_path, given, to, kept):
     write_photo(tmp_path / "p.tif", picture(), "linear" if given == "float" else "srgb", given)
     assert kept_depth(tmp_path / f"o{to}", read_photo(tmp_path / "p.tif")) == kept
+
+
+def parts(*bodies: bytes) -> bytes:
+    return b"".join(b"\xff\xfe" + struct.pack(">H", len(body) + 2) + body for body in bodies)
+
+
+def test_a_film_that_a_phone_appends_to_a_photo_is_no_part_of_it(tmp_path):
+    """In six million bytes of a film the mark of a scan occurs some ninety times by chance."""
+    plain, moving = tmp_path / "plain.jpg", tmp_path / "moving.jpg"
+    Image.fromarray((255 * picture()).astype(np.uint8)).save(plain, progressive=True)
+    film = np.random.default_rng(1).bytes(6_000_000)
+    moving.write_bytes(plain.read_bytes() + film)
+    assert film.count(b"\xff\xda") > MOST_SCANS
+    assert (read_samples(moving) == read_samples(plain)).all()
+
+
+@pytest.mark.parametrize("beside", [b"", parts(b"\xff\xd9"), b"\xff\xd0\xff\x00", b"\xff\xff"])
+def test_no_end_that_is_none_hides_the_scans_of_a_photo(beside, tmp_path):
+    path, (head, *_) = tmp_path / "p.jpg", jpeg(90, 90).split(b"\xff\xda")
+    scan = jpeg(90, 90)[len(head) : -2]
+    for scans in (MOST_SCANS, MOST_SCANS + 1):
+        path.write_bytes(head + (scan + beside) * scans + b"\xff\xd9")
+        with nullcontext() if scans == MOST_SCANS else pytest.raises(RequestError, match="passes over its pixels"):
+            read_samples(path)
+
+
+def test_a_deep_picture_of_many_pixels_is_read_without_a_warning(tmp_path, monkeypatch):
+    path, values = tmp_path / "p.png", np.arange(105, dtype=np.uint16).reshape(5, 7, 3)
+    path.write_bytes(write_deep(values))
+    monkeypatch.setattr(Image, "MAX_IMAGE_PIXELS", 30)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert (read_samples(path) == values).all()
