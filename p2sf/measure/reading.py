@@ -189,7 +189,7 @@ def _plane(values: np.ndarray, path: str | os.PathLike[str], channel: str) -> np
             shape=str(values.shape),
         )
     _check_room(plane.shape, path)
-    return np.asarray(plane, float)
+    return np.array(plane, float)  # no view of the file, which another program may write anew
 
 
 def _check_room(shape: tuple[int, ...], path: str | os.PathLike[str]) -> None:

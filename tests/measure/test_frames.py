@@ -486,3 +486,12 @@ def test_frames_that_hold_nothing_are_refused(tmp_path):
         window_half(find_points(Frame(values, geometry, Noise(full_scale=4000))))
     with pytest.raises(RequestError, match="choose from"):
         FrameModel(PictureOptics(0.1, 0.5, 2.0), 5.0, ("tilt",))
+
+
+def test_a_frame_keeps_its_counts_though_its_file_is_written_anew(tmp_path):
+    path, counts = tmp_path / "a.npy", np.arange(640_000.0).reshape(800, 800)
+    np.save(path, counts)
+    frame = read_frame(path, 1.0)
+    assert not isinstance(frame.values.base, np.memmap) and frame.values.flags.writeable  # before a bus error says so
+    np.save(path, counts[:5, :5])
+    assert (frame.values == counts).all()
