@@ -14,7 +14,7 @@ MM_PER_UNIT = {"": 1.0, "mm": 1.0, "cm": 10.0, "m": 1000.0, "km": 1e6, "µm": 1e
 NO_UNIT = {"": 1.0}
 NUMBER = re.compile(r"([-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:e[-+]?\d+)?)\s*(\D*)")  # and what stands behind it
 POWER = re.compile(r"(?<!\s)\s*+[×x*·]\s*10\^?([-+]?\d+|[⁻⁺]?[⁰¹²³⁴-⁹]+)")  # 6.7×10^-3, 6.7·10⁻³
-THOUSANDS = re.compile(r"[-+−]?[1-9]\d{0,2}([.,])\d{3}(?!\d)")  # perhaps, by the language
+THOUSANDS = re.compile(r"[-+−]?[1-9]\d{0,2}([.,])\d{3}(?!\d|[.,]\d)")  # perhaps, by the language
 RAISED = str.maketrans("⁻⁺⁰¹²³⁴⁵⁶⁷⁸⁹", "-+0123456789")
 SHORTEST_TRAVEL = 1e-300  # to the end: the division overflows nowhere
 FAR_MM = 1e10  # as far as from pole to equator: more digits than anybody reads
@@ -238,14 +238,14 @@ def one_reading(text: str, point: str) -> str:
 
     ``point``: what stands before decimals in the language of the person; the other sign separates thousands there.
     """
-    found = THOUSANDS.match(text.strip())
+    plain = text.strip()
+    found = THOUSANDS.match(plain)
     if found and found[1] != point:
-        number = found[0]
         raise P2SFError(
             '"{text}" can mean two numbers; write {thousands} or {decimals}',
-            text=text.strip(),
-            thousands=number.replace(found[1], ""),
-            decimals=number.replace(found[1], point),
+            text=plain,
+            thousands=plain.replace(found[1], "", 1),
+            decimals=plain.replace(found[1], point, 1),
         )
     return text
 

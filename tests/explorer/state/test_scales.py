@@ -16,6 +16,7 @@ from p2sf_explorer.state.scales import (
     nice,
     one_reading,
     read_distance,
+    read_number,
     ticks,
     written_distance,
 )
@@ -132,3 +133,20 @@ def test_a_number_with_two_readings_is_refused_and_both_are_written(point, text,
     assert [read_distance(one_reading(one, point)) for one in both] == [1500.0, 1.5]
     for plain in ("0.500", "0,500", "1.50", "1,5", "1500.25", "12.5000", f"1{point}500", "∞"):
         assert one_reading(plain, point) == plain
+
+
+@pytest.mark.parametrize(
+    ("point", "text", "both"),
+    [(",", "1.500 m", ("1500 m", "1,500 m")), (".", "−1,500e3", ("−1500e3", "−1.500e3"))],
+)
+def test_what_stands_behind_a_number_with_two_readings_stays(point, text, both):
+    with pytest.raises(P2SFError, match="write {} or {}".format(*both)):
+        one_reading(text, point)
+
+
+@pytest.mark.parametrize("text", ["1,234.5", "1.234,5", "1,234,567", "1.234.567"])
+@pytest.mark.parametrize("point", [".", ","])
+def test_a_number_in_groups_has_one_reading_which_is_refused_as_no_number(text, point):
+    """To offer 1234 or 1.234 in place of 1,234,567 would be wrong either way."""
+    with pytest.raises(P2SFError, match="is not a number"):
+        read_number(one_reading(text, point), "radius")
