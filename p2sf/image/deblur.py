@@ -61,8 +61,10 @@ def photo_statistics(values: np.ndarray, lattice: Lattice, noise: float | None =
     The mean spectrum of the photo is fitted by a·|H|²/(f² + CORNER²)^(falloff/2) + σ² (maximum likelihood of
     exponentially distributed powers, Whittle 1953). Texture and noise look alike where the model's texture is no
     weaker than the noise at any frequency: σ² is known only to ALIKE of its least power. `estimated_noise` is too
-    large at worst, since texture adds to it. Raises RequestError for a noise that is not positive.
+    large at worst, since texture adds to it. Raises RequestError for a noise that is not positive, and for fewer than
+    4 × 4 pixels, which have no spectrum beside the mean.
     """
+    _check_size(values, 4)
     if noise is not None and not noise > 0:
         raise RequestError(
             "the noise is {noise:g}; give the standard deviation of the picture's noise, above 0", noise=noise
@@ -322,12 +324,18 @@ def estimated_noise(values: np.ndarray) -> float:
     The channels' estimates are averaged as variances. Noise must differ from pixel to pixel: what demosaicing smoothed
     is underestimated. Raises RequestError for fewer than 3 × 3 pixels.
     """
-    if min(values.shape[:2]) < 3:
-        raise RequestError("a picture of {shape} pixels; give at least 3 × 3", shape=str(values.shape[:2]))
+    _check_size(values, 3)
     down = values[:-2] - 2 * values[1:-1] + values[2:]
     both = np.abs(down[:, :-2] - 2 * down[:, 1:-1] + down[:, 2:])
     quiet = [_quiet(plane) for plane in np.moveaxis(both, -1, 0)]
     return MAD * float(np.sqrt(np.mean(np.square(quiet)))) / MASK_NORM
+
+
+def _check_size(values: np.ndarray, least: int) -> None:
+    if min(values.shape[:2]) < least:
+        raise RequestError(
+            "a picture of {shape} pixels; give at least {least} × {least}", shape=str(values.shape[:2]), least=least
+        )
 
 
 def _quiet(plane: np.ndarray) -> float:

@@ -232,3 +232,12 @@ def test_each_depth_is_sharpened_by_its_own_kernels():
             for part in (np.s_[: SIDE // 2 - 6], np.s_[SIDE // 2 + 6 :])
         ]
         assert gains[0] > 1 and gains[1] > -0.05
+
+
+@pytest.mark.parametrize("shape", [(1, 1, 1), (1, 64, 3), (64, 2, 1), (3, 3, 1)])
+@pytest.mark.parametrize("noise", [None, 0.01])
+def test_a_picture_of_a_few_pixels_has_no_spectrum(blurred, shape, noise):
+    _, _, lattice, _ = blurred
+    with pytest.raises(RequestError, match="at least 4 × 4"):
+        photo_statistics(np.ones(shape, np.float32), lattice, noise)
+    assert photo_statistics(np.ones((4, 4, 1), np.float32), lattice, noise).high > 0
