@@ -24,7 +24,6 @@ import numpy as np
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import Cancelled, GeometryError
 from p2sf.lens.lens import Lens, with_sensor
-from p2sf.lens.misalignment import straighten
 from p2sf.lens.placement import Motion, Placement, along_z
 from p2sf.lens.source import Source
 from p2sf.pupil.mask_nodes import mask_nodes
@@ -176,14 +175,9 @@ def open_rays(lens: Lens, source: Source, counts: tuple[int, int] = FINE) -> Ope
     return OpenRays(rays.xi, rays.eta, *each)
 
 
-def wavefront_of(lens: Lens, source: Source, rays: Rays, design: Lens | None = None) -> np.ndarray:
-    """Return the displayed wavefront of rays, waves, with the sign of a phase and without the mask's path.
-
-    That of a build of an aligned ``design`` is on the sphere through the exit pupil's plane at right angles to its
-    axis: a plane that tilts with the build moves the sphere of a field at the edge, though no ray changes.
-    """
-    aligned = design is not None and lens.misaligned and not design.misaligned
-    return -opd_on_sphere(rays, exit_radius(straighten(lens) if aligned else lens, source, rays))
+def wavefront_of(lens: Lens, source: Source, rays: Rays) -> np.ndarray:
+    """Return the displayed wavefront of rays, waves, with the sign of a phase and without the mask's path."""
+    return -opd_on_sphere(rays, exit_radius(lens, source, rays))
 
 
 @dataclass(frozen=True, eq=False)
@@ -251,7 +245,7 @@ def _differences(
     chief, turn, shift = np.empty((count, 2)), np.empty((count, 2, rays + 1)), np.empty((count, 2, rays))
 
     def both(built: Lens, one: Rays) -> np.ndarray:
-        return np.stack([one.phase + x * one.fx + y * one.fy, wavefront_of(built, source, one, lens)])
+        return np.stack([one.phase + x * one.fx + y * one.fy, wavefront_of(built, source, one)])
 
     waves_still = both(lens, still)
     for place, step in enumerate(steps):

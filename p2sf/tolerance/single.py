@@ -127,7 +127,7 @@ class _Opening:
     def _straight(self, field: int, built: Lens, rays: Rays) -> _Waves:
         """Return the waves of a field by its rays; those of the open rays include the mask's path."""
         open_ = self.fine[field]
-        on_sphere = wavefront_of(built, self._known.sources[field], rays, self._known.lens) - self._on_sphere[field]
+        on_sphere = wavefront_of(built, self._known.sources[field], rays) - self._on_sphere[field]
         return _Waves(
             rays,
             without_tilt(

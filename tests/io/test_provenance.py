@@ -252,8 +252,7 @@ def test_a_formed_picture_says_what_it_is_of(tmp_path):
 
     scene, path = tmp_path / "scene.toml", tmp_path / "out.png"
     scene.write_text(
-        'name = "wall"\nfocus_mm = 1500\nf_number = 6.7\n'
-        "[sensor]\nrows = 24\ncolumns = 32\npixel_um = 40\n"
+        'name = "wall"\nfocus_mm = 1500\nf_number = 6.7\n[sensor]\nrows = 24\ncolumns = 32\npixel_um = 40\n'
     )
     assert main(["image", "tessar", str(scene), "chart:checkerboard", "-o", str(path)]) == 0
     with Image.open(path) as picture:

@@ -136,8 +136,10 @@ def draw(place: int, seed: int, masks: bool = False, names: Sequence[str] = ()) 
     return lens, source, side, whole_pixel_um(lens, source, side) * (1.0 if rng.random() < 0.4 else part)
 
 
-def trial(place: int, seed: int, masks: bool = False, names: Sequence[str] = ()) -> Trial | str:
-    """Return the outcome of one state, or why `auto` refuses it."""
+def trial(
+    place: int, seed: int, masks: bool = False, names: Sequence[str] = (), most_seconds: float = MOST_SECONDS
+) -> Trial | str:
+    """Return the outcome of one state, or why `auto` refuses it. ``most_seconds``: of its reference."""
     tolerance = TOLERANCES[place % len(TOLERANCES)]
     try:
         lens, source, side, pixel = draw(place, seed, masks, names)
@@ -149,7 +151,7 @@ def trial(place: int, seed: int, masks: bool = False, names: Sequence[str] = ())
         return f"refused: {reason}"
     megabytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     throughout = psf.shortfall is not None and psf.predicted_error >= 1  # said to be wrong: no reference says more
-    reference, values = ("none", None) if throughout else _reference(lens, source, (side, pixel))
+    reference, values = ("none", None) if throughout else _reference(lens, source, (side, pixel), most_seconds)
     missed = None if values is None else 1 - r_squared(psf.values, values)
     own = _own_sum(lens, source, (side, pixel)) if place % EVERY == 0 and not masks else None
     return Trial(
@@ -169,24 +171,26 @@ def trial(place: int, seed: int, masks: bool = False, names: Sequence[str] = ())
     )
 
 
-def _reference(lens: Lens, source: Source, window: tuple[int, float]) -> tuple[str, np.ndarray | None]:
+def _reference(
+    lens: Lens, source: Source, window: tuple[int, float], most_seconds: float
+) -> tuple[str, np.ndarray | None]:
     """Return the converged sum that `auto` is compared with and its name; None where it takes too many rays."""
     try:
         number = fresnel_number(lens, source)
         waves = abs(float(coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um).wd))
         if number < inf:
             try:
-                return "spherical", _within_a_minute(spherical_pupil(lens, source), window)
+                return "spherical", _within(most_seconds, spherical_pupil(lens, source), window)
             except Cancelled:
                 if number < FEWEST or waves > MOST_WAVES:
                     raise
-        return "huygens", _within_a_minute(RayPupil(lens, source), window)
+        return "huygens", _within(most_seconds, RayPupil(lens, source), window)
     except P2SFError as reason:
         return f"none: {reason}", None
 
 
-def _within_a_minute(pupil: RayPupil, window: tuple[int, float]) -> np.ndarray:
-    end = process_time() + MOST_SECONDS
+def _within(seconds: float, pupil: RayPupil, window: tuple[int, float]) -> np.ndarray:
+    end = process_time() + seconds
     return sum_rays(pupil, window, watch=Watch(cancelled=lambda: process_time() > end)).values
 
 
@@ -228,11 +232,13 @@ def summary(outcomes: list[Trial | str]) -> str:
     return "\n".join(lines)
 
 
-def trials(points: int, seed: int = 1, masks: bool = False, names: Sequence[str] = ()):
+def trials(
+    points: int, seed: int = 1, masks: bool = False, names: Sequence[str] = (), most_seconds: float = MOST_SECONDS
+):
     """Yield the outcomes of states in this process until ``points`` are not refused."""
     place = found = 0
     while found < points:
-        outcome = trial(place, seed, masks, names)
+        outcome = trial(place, seed, masks, names, most_seconds)
         found, place = found + isinstance(outcome, Trial), place + 1
         yield outcome
 

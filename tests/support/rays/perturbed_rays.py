@@ -2,8 +2,9 @@
 
 The iris is a piece of metal: its rim has the radius that it has in the lens as designed, and moves with the surface it
 stands on. The source stays where it is. Wavefronts are those over the sphere about where the chief ray lands, through
-the paraxial exit pupil, and every part of the stop counts alike. What is set at assembly is the back focus alone: rays
-go on to the sensor where it then stands. Shares with `p2sf` the numbers of a prescription only.
+the exit pupil's plane, which is at right angles to the chief ray of the axis, and every part of the stop counts alike.
+What is set at assembly is the back focus alone: rays go on to the sensor where it then stands. Shares with `p2sf` the
+numbers of a prescription only.
 """
 
 from dataclasses import dataclass, replace
@@ -35,6 +36,7 @@ OUTWARDS = 0.0, 0.3, 0.5, 0.7, 0.85, 0.95, 1.0  # of it, from the chief ray: nea
 ROUNDS, STEP_MM = 4, 1e-3  # of Gauss and Newton's method for the back focus
 HALVINGS = 12  # of a step that ends where no ray meets the stop
 STEP = 1e-5
+NEIGHBOUR = 1e-4  # slope of the fields beside the axis
 HALF_FRINGE_MM = 0.54607e-3 / 4  # a fringe is half a wave of the green line of mercury, from peak to valley
 
 
@@ -178,7 +180,8 @@ def perturbed(lens: Lens, source: Source, one: Tolerance | None, error: float) -
 class Landed:
     """Rays at the sensor, the chief ray last: places (2, ray), directions (3, ray), paths; ``flat`` times √share.
 
-    ``flat``: (ray, 3), piston and tilt over the stop. ``radius``: of the reference sphere along the axis, mm.
+    ``flat``: (ray, 3), piston and tilt over the stop. ``pupil``: the ray along the axis, where it meets the sensor, its
+    direction, and how far before the sensor the exit pupil is.
     """
 
     place: np.ndarray
@@ -186,7 +189,7 @@ class Landed:
     path: np.ndarray
     index: float
     wavelength: float
-    radius: float
+    pupil: tuple[np.ndarray, np.ndarray, float]
     root: np.ndarray
     flat: np.ndarray
 
@@ -196,7 +199,10 @@ class Landed:
         place, path = self.place + onward * self.way[:2], self.path + self.index * onward
         away = place - place[:, -1:]
         along, square = (self.way[:2] * away).sum(0), (away**2).sum(0)
-        back = back_to_sphere(along, square, (self.radius + shift) / self.way[2, -1])
+        (point, axis, distance), chief = self.pupil, self.way[:, -1]
+        beyond = axis[:2] @ (self.place[:, -1] - point) + shift * (axis @ chief) / chief[2]
+        radius = (distance + beyond) / (axis @ chief)
+        back = back_to_sphere(along, square, radius)
         waves = ((path - path[-1] - self.index * back) / self.wavelength)[:-1] * self.root
         found: np.ndarray = waves - self.flat @ np.linalg.lstsq(self.flat, waves, rcond=None)[0]
         return found
@@ -215,8 +221,34 @@ def landed(lens: Lens, source: Source, one: Tolerance | None, error: float, size
     root = np.sqrt((share / share.sum()).ravel())
     flat = np.stack([np.ones(root.size), xi, eta], 1) * root[:, None]
     system = built.system
-    radius = system.thickness[-1] - exit_pupil_mm(system)
-    return Landed(place, way, path, system.last, system.wavelength, radius, root, flat)
+    return Landed(place, way, path, system.last, system.wavelength, exit_pupil(built), root, flat)
+
+
+def exit_pupil(built: Perturbed) -> tuple[np.ndarray, np.ndarray, float]:
+    """Return the ray along the axis, place and direction, and how far behind the exit pupil it meets the sensor.
+
+    Of moved surfaces the pupil is where chief rays of fields beside the axis come closest to that ray; by first order
+    of others.
+    """
+    system = built.system
+    if not built.moved:
+        return np.zeros(2), np.array([0.0, 0.0, 1.0]), system.thickness[-1] - exit_pupil_mm(system)
+    middle = np.zeros(1)
+    rays = []
+    for slope in (0.0, NEIGHBOUR, -NEIGHBOUR):
+        beside = replace(built, where=None, slope=slope)
+        place, way, *_ = beside.traced(beside.aimed(middle, middle))
+        rays.append((np.append(place[:, 0], 0.0), way[:, 0]))
+    (point, axis), *others = rays
+    apart, away = (np.concatenate(part) for part in zip(*(_beside(point, axis, *ray) for ray in others), strict=True))
+    return point[:2], axis, float(apart @ away / (away @ away))
+
+
+def _beside(point: np.ndarray, axis: np.ndarray, place: np.ndarray, way: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return how far from an axis a ray is beside its point, and how much farther each mm onwards along it."""
+    onward = way / (axis @ way) - axis
+    offset = place - point
+    return offset - (axis @ offset) * (axis + onward), onward
 
 
 def worst_rms(lens: Lens, sources: tuple[Source, ...], one: Tolerance | None, error: float) -> float:
