@@ -6,9 +6,10 @@ FLATTEST = 1e6  # picture, above which the reference itself tells no R² of 0.99
 
 
 def r_squared(values: np.ndarray, reference: np.ndarray) -> float:
-    """Return R² of two windows (y, x) after both are given unit sum."""
+    """Return R² of two windows (y, x) after both are given unit sum; 1 of the same ones, single samples too."""
     found, wanted = _unit_sum(values), _unit_sum(reference)
-    return float(1 - np.square(wanted - found).sum() / np.square(wanted - wanted.mean()).sum())
+    missed = float(np.square(wanted - found).sum())
+    return float(1 - missed / np.square(wanted - wanted.mean()).sum()) if missed else 1.0
 
 
 def relative_l2(values: np.ndarray, reference: np.ndarray) -> float:

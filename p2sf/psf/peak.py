@@ -104,6 +104,8 @@ def peak_of(
     wide = waves if hypot(half, half) <= waves.reach_um else reaching(hypot(half, half))
     if wide is None:
         wide, half = waves, waves.reach_um / sqrt(2)
+    if not half:  # one sample, and too many waves for any place beside it
+        return brightest
     side = min(MOST_SAMPLES, ceil(2 * half * FINE * waves.spread))
     grid = centred_axis(side, 2 * half / side)
     where = wide.plane if wide.fx.size > MANY_WAVES else wide.within(SEARCH_SECONDS)

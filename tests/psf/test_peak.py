@@ -204,3 +204,10 @@ def test_plane_waves_lead_to_the_peak_of_many_spherical_ones(name, field_deg, f_
         monkeypatch.setattr(peak, "MANY_WAVES", most)
         found.append(sum_rays(spherical_pupil(lens, source), window, None).strehl)
     assert found[0] == pytest.approx(found[1], rel=1e-6)
+
+
+@pytest.mark.filterwarnings("error::RuntimeWarning")
+@pytest.mark.parametrize("method", ["huygens", "spherical"])
+def test_of_one_sample_within_too_wide_a_blur_it_is_that_sample(method):
+    psf = render(find_lens("landscape"), Source(50.0), method, 1, 0.1)
+    assert psf.peak_um == (0.0, 0.0) and 0 < psf.strehl < 1e-4
