@@ -47,7 +47,8 @@ def critical_pixel_of_spheres(lens: Lens, source: Source) -> float:
         return inf
     xi, eta, _ = level_rays(levels_for(lens)[0])
     rays = sphere.seen_from(pencil(lens, source, xi, eta).arrived)[0]
-    return 1 / (4 * FRINGES_OF_SPHERES * float(np.hypot(rays.fx, rays.fy).max()))
+    spread = float(np.hypot(rays.fx, rays.fy).max(initial=0.0))
+    return 1 / (4 * FRINGES_OF_SPHERES * spread) if spread else inf  # where no ray arrives, the sum says so
 
 
 def samples_across(pixels: int, pixel_um: float, finest_um: float, fewest: float = 1.0) -> int:

@@ -9,7 +9,7 @@ from p2sf.database.build import build_database
 from p2sf.database.fitted_build import build_fitted
 from p2sf.database.render import Sampling, critical_pixel_um, pixels_psf, render_source, rendered_light
 from p2sf.database.space import Space
-from p2sf.errors import SamplingError
+from p2sf.errors import GeometryError, SamplingError
 from p2sf.lens.lens import with_aim, with_sensor
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
@@ -150,3 +150,10 @@ def test_a_databases_wide_pixels_hold_the_light_of_narrow_ones():
     fine = render_source(database, points, Sampling(135, pitch / 3), np.float64)
     sums = fine.reshape(*fine.shape[:-2], 9, 15, 9, 15).sum((-3, -1))
     np.testing.assert_allclose(wide, sums / sums.sum((-2, -1), keepdims=True), atol=5e-4 * sums.max())
+
+
+@pytest.mark.parametrize("method", ["huygens", "spherical", "auto"])
+def test_where_no_ray_arrives_every_sum_says_so(method):
+    lens = find_lens("schmidt_camera")
+    with pytest.raises(GeometryError, match="no ray but the chief ray"):
+        p2sf.render(lens, Source(5.0), method, pixels=2, pixel_um=3.0)
