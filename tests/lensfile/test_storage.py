@@ -53,7 +53,7 @@ def test_a_file_is_written_whole_or_not_at_all(tmp_path, monkeypatch):
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(os, "replace", full)
-    with pytest.raises(LensFileError, match=r"cannot be written \(No space left on device\); choose another place"):
+    with pytest.raises(LensFileError, match=r"cannot be written \(no space left on device\); choose another place"):
         write_toml(parse_toml(GOOD), path)
     assert path.read_text() == "what was here before" and os.listdir(tmp_path) == ["lens.toml"]
 
