@@ -431,7 +431,12 @@ class Camera(Settings):
     def picture_plan(
         self, values: ArrayLike, depth_mm: ArrayLike | None = None, *, rtol: float = 0.05, clip: bool = False
     ) -> "Plan":
-        """Return the plan by which `photograph` forms a picture of this shape, and `sharpen` sharpens one."""
+        """Return the plan by which `photograph` forms a picture of this shape, and `sharpen` sharpens one.
+
+        ``values``: the picture, (row, column) or (row, column, 3); ``depth_mm``: one distance of the object or that of
+        every pixel, by default the one in focus; ``rtol``: relative L2 error that its kernels may have; ``clip``:
+        whether clear semi-diameters count. Raises RequestError without ``pixel_um`` and for impossible depths.
+        """
         return self._plan(real_array("values", values), self._depths(depth_mm), rtol, clip)
 
     def _depths(self, depth_mm: ArrayLike | None) -> np.ndarray:
