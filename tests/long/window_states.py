@@ -21,9 +21,9 @@ from p2sf.lensfile.library import shipped_lenses
 from p2sf.psf import huygens
 from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import first_counts, sum_rays
-from p2sf.psf.methods import psf_of, reference_pupil
+from p2sf.psf.methods import reference_pupil
 from p2sf.psf.sums.plane_waves import window_reach_um
-from p2sf_explorer.compute.deferred_sums import SumCache
+from p2sf_explorer.compute.deferred_sums import SumCache, answer_to
 from p2sf_explorer.compute.live import Live, live
 from p2sf_explorer.compute.setup import ParaxialSetup, default_state, prescription, ranges
 from p2sf_explorer.state.state import State, change
@@ -98,7 +98,7 @@ def settled(state: State) -> Live:
     answer = live(state, cache=cache)
     while answer.pending:
         try:
-            cache.keep(answer.pending, psf_of(answer.pending))
+            cache.keep(answer.pending, answer_to(answer.pending))
         except P2SFError as error:
             cache.keep(answer.pending, error.message)
         answer = live(state, cache=cache)
