@@ -51,7 +51,7 @@ SHORTEST, LONGEST = 0.3, 2.5  # µm, of glasses that have no limits
 FEWEST = 1000.0  # Fresnel number, and
 MOST_WAVES = 3.0  # of defocus, between which plane waves are the reference
 EVERY = 6  # states, of which one is compared with a sum of its own
-MOST_PAIRS = 2e9  # wavelets at places of that sum: some minutes
+PAIRS_A_SECOND = 3e7  # wavelets at places of that sum
 MOST_SECONDS = 60.0  # of a reference
 SECONDS, MEGABYTES = 5.0, 1000.0
 
@@ -153,7 +153,7 @@ def trial(
     throughout = psf.shortfall is not None and psf.predicted_error >= 1  # said to be wrong: no reference says more
     reference, values = ("none", None) if throughout else _reference(lens, source, (side, pixel), most_seconds)
     missed = None if values is None else 1 - r_squared(psf.values, values)
-    own = _own_sum(lens, source, (side, pixel)) if place % EVERY == 0 and not masks else None
+    own = _own_sum(lens, source, (side, pixel), most_seconds) if place % EVERY == 0 and not masks else None
     return Trial(
         place,
         lens.name,
@@ -194,7 +194,7 @@ def _within(seconds: float, pupil: RayPupil, window: tuple[int, float]) -> np.nd
     return sum_rays(pupil, window, watch=Watch(cancelled=lambda: process_time() > end)).values
 
 
-def _own_sum(lens: Lens, source: Source, window: tuple[int, float]) -> np.ndarray | None:
+def _own_sum(lens: Lens, source: Source, window: tuple[int, float], most_seconds: float) -> np.ndarray | None:
     """Return Kirchhoff's sum at a third more nodes than should do; None behind a mask, of lost rays and of many nodes.
 
     The sum knows no masks.
@@ -208,7 +208,7 @@ def _own_sum(lens: Lens, source: Source, window: tuple[int, float]) -> np.ndarra
         return None
     radii, angles = (round(4 / 3 * count) for count in counts)
     radii += radii // 3  # Gauss–Legendre in ρ takes more nodes than in ρ²
-    if prod((radii, angles)) * window[0] ** 2 > MOST_PAIRS:
+    if prod((radii, angles)) * window[0] ** 2 > PAIRS_A_SECOND * most_seconds:
         return None
     return double_sum(lens, source, centred_axis(*window), (radii, angles))
 
