@@ -38,7 +38,7 @@ MOST_INSIDE = 0.9  # of the rays in a window, from which on its R² is that of t
 SAMPLES = 64  # a side of the window in which the two sums are compared
 ROOM = 1.1, 2.0  # of that window: of the landing points, and Airy radii
 FEW_NODES = 2**14  # of that comparison: some 10 ms
-MOST_NODES = 2**21  # of that comparison: half a second, where a sum of spherical waves takes ten times as long
+MOST_NODES = 2**21  # of that comparison, beyond which it is not made: a second, where spherical waves take ten
 
 
 def spherical_pupil(lens: Lens, source: Source, clip: bool = False) -> RayPupil:
@@ -109,8 +109,8 @@ def _spread_anywhere(domain: PupilDomain, share: np.ndarray, x: np.ndarray, y: n
 def _wide_angle(rays: Rays, steep: Steepness, distance_um: float) -> float:
     """Return about what plane waves miss of light that spreads by some of the pupil's distance, as 1 − R².
 
-    Light t times that distance beside a ray is displaced by t·sine and t²/2 of t, of a chief ray at that ``sine``, and
-    t² fainter.
+    Light t times that distance beside a ray is displaced by t·sine and t²/2 of t, with the sine of the chief ray's
+    angle to the sensor's normal, and t² fainter.
     """
     sine = float(np.hypot(np.ravel(rays.chief_kx)[0], np.ravel(rays.chief_ky)[0]))
     spread, t = steep.light_um, steep.light_um / abs(distance_um)
