@@ -230,15 +230,14 @@ def choose(
     window: tuple[int, float] | None = None,
     flatness: float = 1.0,
     quick: bool = False,
-    compared: float | None = None,
 ) -> Choice:
     """Return the cheapest method whose predicted R² is at least ``min_r2``, without running the reference.
 
     The prediction is for a ``window`` (samples a side, µm between samples) with a picture of this `flatness_of`, or for
     one that shows the whole PSF. Where the sum that keeps ``min_r2`` is estimated to take more than AUTO_SECONDS, the
     best one within them is chosen, and its predicted error is above what is allowed. A ``quick`` choice leaves a long
-    comparison `open`; ``compared`` is the `plane_wave_error` that is known. Raises GeometryError if the chief ray does
-    not reach the sensor, RequestError for a ``min_r2`` not below 1.
+    comparison `open`. Raises GeometryError if the chief ray does not reach the sensor, RequestError for a ``min_r2``
+    not below 1.
     """
     _check_min_r2(min_r2, BELOW_ONE)
     allowed = 1 - min_r2
@@ -247,11 +246,9 @@ def choose(
     steep = steepness(rays, xi, eta)
     half = inf if window is None else window[0] * window[1] / 2
     bound = flatness * plane_wave_bound(lens, source, rays, weight, steep, half)
-    left_open = (
-        quick and compared is None and bound > PLANE_SHARE * allowed and is_long_comparison(lens, source, clip, half)
-    )
+    left_open = quick and bound > PLANE_SHARE * allowed and is_long_comparison(lens, source, clip, half)
     if bound > PLANE_SHARE * allowed and not left_open:
-        bound = min(bound, _compared(lens, source, clip, half) if compared is None else COMPARED * compared)
+        bound = min(bound, _compared(lens, source, clip, half))
     if bound <= PLANE_SHARE * allowed or not _sphere_is_affordable(lens, source, clip, window):
         left = allowed - bound if bound <= PLANE_SHARE * allowed else allowed
         choice = _choose_plane(lens, source, clip, rays, steep, left / flatness)

@@ -412,9 +412,9 @@ def choice_for_state(state: State, setup: ParaxialSetup, cache: SumCache | None 
     if not state.optics.automatic:
         return None
     lens, source, clip = setup.lens, setup.source, state.optics.clip
-    found = cache.get(ComparisonRequest(lens, source, clip)) if cache else None
-    known = found if isinstance(found, float) else None
-    return choose(lens, source, state.optics.tolerance, clip, quick=cache is not None, compared=known)
+    # What the worker has compared is kept beside the comparison itself, too.
+    quick = cache is not None and cache.get(ComparisonRequest(lens, source, clip)) is None
+    return choose(lens, source, state.optics.tolerance, clip, quick=quick)
 
 
 def at_least(r_squared: float) -> str:
