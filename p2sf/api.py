@@ -14,12 +14,12 @@ from typing import TYPE_CHECKING, Any, Literal
 from numpy.typing import ArrayLike
 
 from p2sf.arguments import check_arguments, former_names
-from p2sf.camera import AS_IN_FILE, AimChoice, Camera, StopChoice, set_up_source, with_camera
 from p2sf.errors import P2SFWarning
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.parameters import check_finite
 from p2sf.paraxial.seidel import Coefficients
+from p2sf.setting import AS_IN_FILE, AimChoice, CameraData, StopChoice, set_up_source, with_camera
 from p2sf.threads import using_threads
 
 if TYPE_CHECKING:
@@ -81,7 +81,7 @@ def render(
     min_r2: float = 0.99,
     clip: bool = False,
     integrated: bool | None = None,
-    camera: Camera = AS_IN_FILE,
+    camera: CameraData = AS_IN_FILE,
     focus_mm: float | None = None,
     sensor_shift_um: float = 0.0,
     f_number: float | None = None,
@@ -154,7 +154,7 @@ def coefficients(
     lens: Lens,
     source: Source | None = None,
     *,
-    camera: Camera = AS_IN_FILE,
+    camera: CameraData = AS_IN_FILE,
     focus_mm: float | None = None,
     sensor_shift_um: float = 0.0,
     f_number: float | None = None,
@@ -198,7 +198,7 @@ def zernike(
     terms: int = 37,
     *,
     clip: bool = False,
-    camera: Camera = AS_IN_FILE,
+    camera: CameraData = AS_IN_FILE,
     focus_mm: float | None = None,
     sensor_shift_um: float = 0.0,
     f_number: float | None = None,
@@ -247,7 +247,7 @@ def choose_method(
     min_r2: float = 0.99,
     *,
     clip: bool = False,
-    camera: Camera = AS_IN_FILE,
+    camera: CameraData = AS_IN_FILE,
     focus_mm: float | None = None,
     sensor_shift_um: float = 0.0,
     f_number: float | None = None,
@@ -287,7 +287,7 @@ def mtf(
     spectrum: str | None = None,
     turn_deg: float = 0.0,
     clip: bool = False,
-    camera: Camera = AS_IN_FILE,
+    camera: CameraData = AS_IN_FILE,
     focus_mm: float | None = None,
     sensor_shift_um: float = 0.0,
     f_number: float | None = None,
@@ -350,7 +350,7 @@ def encircled_energy(
     radius_um: ArrayLike | None = None,
     spectrum: str | None = None,
     clip: bool = False,
-    camera: Camera = AS_IN_FILE,
+    camera: CameraData = AS_IN_FILE,
     focus_mm: float | None = None,
     sensor_shift_um: float = 0.0,
     f_number: float | None = None,
@@ -391,7 +391,7 @@ def line_spread(
     position_um: ArrayLike | None = None,
     spectrum: str | None = None,
     clip: bool = False,
-    camera: Camera = AS_IN_FILE,
+    camera: CameraData = AS_IN_FILE,
     focus_mm: float | None = None,
     sensor_shift_um: float = 0.0,
     f_number: float | None = None,
@@ -424,7 +424,7 @@ def line_spread(
 
 
 def _pupil_parts(
-    lens: Lens, source: Source | None, spectrum: str | None, camera: Camera, **how: Any
+    lens: Lens, source: Source | None, spectrum: str | None, camera: CameraData, **how: Any
 ) -> "tuple[list[PupilPart], str]":
     """Return the pupils of a source, one per wavelength, and the method that described them, as `parts_of` has both."""
     from p2sf.colour.spectrum import spectrum_of

@@ -32,6 +32,7 @@ WANTED = {
     "str": "a text",
     "tuple": "a tuple",
     "Aperture": "a p2sf.Aperture or an f-number",
+    "CameraData": "a p2sf.Camera",
     "PathLike": "a path",
     "Lens": "what p2sf.load_lens returns",
     "Plan": "what p2sf.plan returns",

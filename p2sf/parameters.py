@@ -217,7 +217,7 @@ SOURCE_PARAMETERS = (
     Parameter("image_height_mm", "the image height", "mm", check_finite),
     Parameter("wavelength_nm", "Wavelength", "nm", check_positive, (100.0, 20000.0), Message("wavelength")),
 )
-"""Parameters of a point source, the fields of `p2sf.camera.PointSource`."""
+"""Parameters of a point source, the fields of `p2sf.setting.PointSource`."""
 CAMERA_PARAMETERS = (
     Parameter("zoom", "Zoom", "", accept_any, RING, Message("zoom")),
     Parameter("focus_position", "Focus", "", accept_any, RING, Message("focus")),

@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from p2sf.arguments import in_own_unit
-from p2sf.camera import Camera, Settings, Setup, explicit_values, set_up_source
 from p2sf.cluster import checked_client
 from p2sf.conventions import centred_axis, write_protect
 from p2sf.errors import P2SFWarning, RequestError
@@ -24,6 +23,7 @@ from p2sf.lens.source import Source
 from p2sf.messages import Alternatives
 from p2sf.named_arrays import Dims, NamedArrays, NamedAxes, along
 from p2sf.parameters import CAMERA_PARAMETERS, MASK_PARAMETERS
+from p2sf.setting import CameraData, Settings, Setup, explicit_values, set_up_source
 from p2sf.threads import for_each, one_blas_thread
 
 if TYPE_CHECKING:
@@ -84,7 +84,7 @@ class Sweep:
     (3, 2, 3)
     """
 
-    camera: Camera
+    camera: CameraData
     axes: Axes = field(default_factory=dict)
     threads: int | None = None
     progress: Callable[[float], object] | bool = False
@@ -342,7 +342,7 @@ def _axis(name: str, values: ArrayLike) -> np.ndarray:
     return write_protect(found.copy())
 
 
-def _point(camera: Camera, values: Mapping[str, Any]) -> SweepPoint:
+def _point(camera: CameraData, values: Mapping[str, Any]) -> SweepPoint:
     """Return a point of a sweep; RequestError for values that cannot be."""
     plain = {name: np.asarray(value).item() for name, value in values.items()}
     moved = {name: plain.pop(name) for name in tuple(plain) if name not in OF_THE_SOURCE}

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import p2sf
-from p2sf.camera import Camera, Request, set_up, set_up_source
+from p2sf.camera import Camera
 from p2sf.conventions import centred_axis, slope_from_degrees
 from p2sf.errors import RequestError, SamplingError
 from p2sf.io import psf_plot
@@ -24,6 +24,7 @@ from p2sf.psf.compare import r_squared
 from p2sf.psf.pixel_integrals import render_integrated
 from p2sf.pupil.quadrature import cell_areas
 from p2sf.pupil.transform import matrix_dft
+from p2sf.setting import Request, set_up, set_up_source
 from tests.support.interpreter import loaded_by
 
 LENS = p2sf.load_lens("double_gauss_28")

@@ -12,17 +12,7 @@ import pytest
 
 import p2sf
 import p2sf_explorer
-from p2sf.camera import (
-    AS_IN_FILE,
-    Camera,
-    LensSettings,
-    PointSource,
-    Request,
-    Settings,
-    explicit_values,
-    set_up,
-    set_up_source,
-)
+from p2sf.camera import Camera
 from p2sf.cli import main
 from p2sf.errors import RequestError
 from p2sf.lens.lens import with_absorption, with_aim, with_f_number, with_mask
@@ -31,6 +21,16 @@ from p2sf.parameters import CAMERA_PARAMETERS, MASK_PARAMETERS, PARAMETERS, SOUR
 from p2sf.pupil.mask import MaskSettings, PupilMask
 from p2sf.scene.files import KEYS
 from p2sf.scene.scene import Scene
+from p2sf.setting import (
+    AS_IN_FILE,
+    LensSettings,
+    PointSource,
+    Request,
+    Settings,
+    explicit_values,
+    set_up,
+    set_up_source,
+)
 from p2sf_explorer.compute.quantities import QUANTITIES
 from p2sf_explorer.compute.setup import request_setup, with_lens
 from p2sf_explorer.state.limits import RANGES, SLIDERS

@@ -14,8 +14,6 @@ from p2sf.psf.result import facts
 @pytest.mark.parametrize(
     ("module", "name", "place"),
     [
-        ("p2sf.request", "Request", "p2sf.camera"),
-        ("p2sf.request", "set_up", "p2sf.camera"),
         ("p2sf.measure.frame_terms", "lens_optics", "p2sf.measure.fitting.frame_terms"),
     ],
 )

@@ -5,7 +5,6 @@ from math import inf, nan
 import numpy as np
 import pytest
 
-from p2sf.camera import Request, set_up
 from p2sf.conventions import FARTHEST_MM, depth_of
 from p2sf.errors import P2SFError
 from p2sf.lens.lens import AIMS, with_aim
@@ -16,6 +15,7 @@ from p2sf.paraxial.pupils import f_number, find_stop, pupils
 from p2sf.paraxial.seidel import coefficients
 from p2sf.raytrace.pencil import displayed_opd
 from p2sf.raytrace.zernike_fit import pupil_opd
+from p2sf.setting import Request, set_up
 from p2sf_explorer.state.scales import Vergence
 from tests.support.lenses.mirrors import mirror
 from tests.support.reference import prescription_lens

@@ -4,7 +4,6 @@ from math import inf
 
 import numpy as np
 
-from p2sf.camera import Setup
 from p2sf.cli.screen import text, warn
 from p2sf.lens.lens import Lens
 from p2sf.lensfile.library import find_lens
@@ -15,6 +14,7 @@ from p2sf.paraxial.seidel import coefficients, of_aligned_lens
 from p2sf.paraxial.wavefront import steepest_slope
 from p2sf.raytrace.aiming import pupil_rays
 from p2sf.raytrace.trace import out_of_order, trace
+from p2sf.setting import Setup
 
 STEEP_WAVES = 500.0, 2000.0  # from about a second on, and where `seidel_psf` refuses the sum
 # Measured for 64 × 64 samples: the nodes, and with them the time, grow with the square of the slope.

@@ -3,7 +3,6 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from p2sf.camera import Setup
 from p2sf.cli.cautions import TOO_COARSE
 from p2sf.cli.options import check_output
 from p2sf.cli.screen import Row, heading, print_json, print_table, warn
@@ -17,6 +16,7 @@ from p2sf.psf.methods import PsfOptions
 from p2sf.psf.pixel_integrals import render_integrated
 from p2sf.psf.polychromatic import ColourPsf, colour_psf, record, suitable_pitch_um
 from p2sf.psf.result import IN_WINDOW
+from p2sf.setting import Setup
 
 if TYPE_CHECKING:
     from p2sf.cli.images import Picture

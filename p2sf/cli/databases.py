@@ -10,7 +10,6 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from cyclopts import App, Parameter
 
-from p2sf.camera import Request, set_up, usual_depths
 from p2sf.cli.cautions import open_lens
 from p2sf.cli.lookups import accuracy_rows
 from p2sf.cli.options import AS_IN_ITS_FILE, CameraFlags, Json, LensName, Threads, check_samples
@@ -28,6 +27,7 @@ from p2sf.lens.lens import Lens
 from p2sf.messages import Message, ParameterName
 from p2sf.psf.methods import by_six
 from p2sf.raytrace.focusing import object_distance
+from p2sf.setting import Request, set_up, usual_depths
 from p2sf.spans import check_ascending, depths, numbers
 from p2sf.threads import using_threads
 

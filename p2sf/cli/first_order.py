@@ -5,7 +5,6 @@ from typing import Any
 
 import numpy as np
 
-from p2sf.camera import Setup, set_up
 from p2sf.cli.cautions import open_lens
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName
 from p2sf.cli.screen import Row, heading, print_json, print_table, warn
@@ -17,6 +16,7 @@ from p2sf.paraxial.first_order import abcd, cardinal_points, image_distance, mag
 from p2sf.paraxial.lens_checks import lens_checks
 from p2sf.paraxial.pupils import f_number, numerical_aperture, paraxial_rays, pupils
 from p2sf.paraxial.seidel import Coefficients, coefficients, of_aligned_lens, seidel_sums
+from p2sf.setting import Setup, set_up
 
 INFO_ROWS = (
     ("effective_focal_length", "effective focal length", "mm"),

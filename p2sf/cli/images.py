@@ -8,7 +8,6 @@ from typing import Annotated, Any, Literal
 from cyclopts import Parameter
 
 from p2sf.api import Method
-from p2sf.camera import Request, Setup, set_up
 from p2sf.cli.cautions import TOO_COARSE, caution
 from p2sf.cli.lookups import accuracy_rows, is_database, looked_up
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, Threads, check_output, check_samples
@@ -26,6 +25,7 @@ from p2sf.metrics.window import centroid, radius_of_energy
 from p2sf.psf.methods import AUTO, PsfOptions, by_six
 from p2sf.psf.prediction import ALLOWED, TOO_FAR, USELESS
 from p2sf.psf.result import IN_WINDOW, Psf, facts
+from p2sf.setting import Request, Setup, set_up
 from p2sf.threads import using_threads
 
 

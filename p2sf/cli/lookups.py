@@ -5,7 +5,6 @@ from math import inf, isinf
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from p2sf.camera import Request, explicit_values
 from p2sf.cli.screen import Row, field_text
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
 from p2sf.database import ExactDatabase
@@ -17,6 +16,7 @@ from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.psf.prediction import TOO_FAR, USELESS
 from p2sf.psf.result import Psf
+from p2sf.setting import Request, explicit_values
 
 if TYPE_CHECKING:
     from p2sf.database import GridDatabase

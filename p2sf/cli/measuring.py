@@ -8,7 +8,6 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from cyclopts import Parameter
 
-from p2sf.camera import FIELDS, Request, Setup, mask_of, set_up
 from p2sf.cli.cautions import open_lens
 from p2sf.cli.options import AS_IN_THE_FILE, LENS_ENDINGS, Asked, Json, Output, Threads, check_output
 from p2sf.cli.screen import Row, percent_line, print_json, print_table, warn
@@ -32,6 +31,7 @@ from p2sf.measure.measurement import (
 from p2sf.measure.reading import read_frame
 from p2sf.measure.target import TargetMatch, read_target
 from p2sf.messages import Message
+from p2sf.setting import FIELDS, Request, Setup, mask_of, set_up
 from p2sf.threads import using_threads
 
 Pictures = Annotated[list[Path], Parameter(help="Pictures of the same points, one for each focus position.")]

@@ -9,9 +9,9 @@ from typing import Annotated, Any, get_args
 
 from cyclopts import App, ArgumentCollection, CoercionError, Parameter
 
-from p2sf.camera import Request, Settings
 from p2sf.errors import RequestError
 from p2sf.files.writing import check_known_ending, check_place
+from p2sf.setting import Request, Settings
 
 WHOLE = re.compile(r"\s*[+-]?\d+\s*")
 MOST_PIXELS = 2048  # 32 MiB a picture; a kernel of this width still fits any machine

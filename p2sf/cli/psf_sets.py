@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from p2sf.camera import Request, Setup, set_up
 from p2sf.cli.cautions import caution, open_lens
 from p2sf.cli.images import USUAL, Picture, SetOptions
 from p2sf.cli.lookups import is_database
@@ -21,6 +20,7 @@ from p2sf.image import Progress
 from p2sf.io.record import describe_many
 from p2sf.messages import ParameterName
 from p2sf.parameters import check_angle, check_positive
+from p2sf.setting import Request, Setup, set_up
 from p2sf.spans import depths, numbers
 
 INSTEAD = {  # of an axis of a set: what states it for one PSF

@@ -11,7 +11,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from cyclopts import Parameter
 
-from p2sf.camera import Camera, explicit_values, set_up
+from p2sf.camera import Camera
 from p2sf.cli.cautions import open_lens
 from p2sf.cli.options import (
     AS_IN_ITS_FILE,
@@ -38,6 +38,7 @@ from p2sf.scene import Plan, Scene, Sensor, plan, read_scene, verify
 from p2sf.scene.planning.table import plan_facts, plan_rows, plan_sentences
 from p2sf.scene.scene import DIMMEST, MOST_LIGHT, RGB
 from p2sf.scene.sensor import LARGEST_SIDE
+from p2sf.setting import explicit_values, set_up
 from p2sf.threads import using_threads
 
 CHART = "chart:"

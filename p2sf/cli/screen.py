@@ -8,12 +8,12 @@ from math import isinf
 from time import perf_counter
 from typing import Any
 
-from p2sf.camera import Setup
 from p2sf.cli import STYLE
 from p2sf.files.writing import plain
 from p2sf.image.progress import seconds_left
 from p2sf.lens.source import Source
 from p2sf.messages import Message, printable
+from p2sf.setting import Setup
 
 Row = tuple[object, ...]
 FILLED = {"stop": "the real stop", "paraxial": "the paraxial entrance pupil"}  # by exact rays, `Lens.aim`

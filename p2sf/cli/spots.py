@@ -8,7 +8,6 @@ from typing import Annotated, Any
 import numpy as np
 from cyclopts import Parameter
 
-from p2sf.camera import Setup, set_up
 from p2sf.cli.cautions import crossed_surfaces, open_lens
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, check_output, check_whole
 from p2sf.cli.screen import FILLED, heading, print_json, print_table, warn
@@ -18,6 +17,7 @@ from p2sf.metrics.perfect import airy_radius_um
 from p2sf.raytrace.field_geometry import cone
 from p2sf.raytrace.spot import DRAWN_RINGS
 from p2sf.raytrace.spot import spot as spot_of
+from p2sf.setting import Setup, set_up
 
 MOST_RINGS = 200  # 120 601 rays
 

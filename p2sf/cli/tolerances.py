@@ -7,13 +7,13 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from cyclopts import Parameter
 
-from p2sf.camera import Setup, set_up
 from p2sf.cli.cautions import open_lens
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, check_whole
 from p2sf.cli.screen import field_text, print_json, print_table, warn
 from p2sf.errors import RequestError
 from p2sf.lens.source import Source
 from p2sf.parameters import check_positive
+from p2sf.setting import Setup, set_up
 from p2sf.tolerance import (
     Builds,
     Criterion,

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from p2sf.camera import Setup
 from p2sf.conventions import NM_PER_UM, depth_of
 from p2sf.files.writing import plain
 from p2sf.lens.lens import Lens
@@ -19,6 +18,7 @@ from p2sf.psf.record import true_of_all
 from p2sf.psf.result import Psf
 from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.raytrace.focusing import focused_vergence
+from p2sf.setting import Setup
 
 FORMER = {"tolerance": "error"}
 """Fields of files before 0.3 by their names today."""

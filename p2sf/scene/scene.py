@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from p2sf.arguments import check_fields, real_array
-from p2sf.camera import AimChoice, Request, Settings, set_up
 from p2sf.conventions import NM_PER_UM, vergence
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens
@@ -27,6 +26,7 @@ from p2sf.scene.depth_gaps import (
     occupied_intervals,
 )
 from p2sf.scene.sensor import Sensor
+from p2sf.setting import AimChoice, Request, Settings, set_up
 
 NAMES = {"red": Message("red"), "green": Message("green"), "blue": Message("blue")}
 LIMITS = {"rtol": "relative", "min_r2": "r2", "mtf_error": "mtf", "min_psnr_db": "psnr", "tail_error": "hdr"}

@@ -13,7 +13,6 @@ from typing import BinaryIO
 from numpy.typing import ArrayLike
 
 from p2sf.arguments import check_arguments, former_names, number_list
-from p2sf.camera import AS_IN_FILE, AimChoice, Camera, set_up_source, with_camera
 from p2sf.html import html_table
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
@@ -26,6 +25,7 @@ from p2sf.psf.methods import NAMES, REFERENCE, PsfOptions, method_of, render
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_samples, suitable_pixel_um
 from p2sf.raytrace.focusing import object_distance
+from p2sf.setting import AS_IN_FILE, AimChoice, CameraData, set_up_source, with_camera
 from p2sf.studies.other_sampling import SAMPLED, check_sampling, sampled_psf, sampled_ways
 from p2sf.studies.trade_plots import MARKERS
 from p2sf.threads import one_blas_thread, using_threads
@@ -81,7 +81,7 @@ def tradeoff(
     pixels: int = PIXELS,
     pixel_um: float | None = None,
     samplings: ArrayLike = (),
-    camera: Camera = AS_IN_FILE,
+    camera: CameraData = AS_IN_FILE,
     aim: AimChoice | None = None,
 ) -> TradeoffTable:
     """Measure the time of each method and its error against the settled Huygens sum of exact rays.

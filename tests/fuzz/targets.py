@@ -13,7 +13,6 @@ from functools import cache
 
 import numpy as np
 
-from p2sf.camera import Request, set_up
 from p2sf.cli import main
 from p2sf.database import Space, build_database
 from p2sf.database.files.npz import MARK, database_bytes, database_from_bytes
@@ -31,6 +30,7 @@ from p2sf.paraxial.first_order import cardinal_points
 from p2sf.paraxial.pupils import pupils
 from p2sf.paraxial.seidel import coefficients
 from p2sf.scene.files import read_scene
+from p2sf.setting import Request, set_up
 from p2sf_explorer.files.embedded_state import text_inside
 from p2sf_explorer.lessons.lesson import parse_lesson
 from p2sf_explorer.state.link import state_of_link

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 import p2sf
-from p2sf.camera import Request, set_up
 from p2sf.cli import main
 from p2sf.database.render import Sampling
 from p2sf.io.fits_psf import read_psf_fits, write_psf_fits
@@ -18,6 +17,7 @@ from p2sf.io.record import describe
 from p2sf.lens.lens import indices
 from p2sf.lensfile.library import shipped_lenses
 from p2sf.paraxial.first_order import abcd
+from p2sf.setting import Request, set_up
 
 CAMERA = p2sf.Camera("tessar", focus_mm=1500, f_number=6.7, blades=7)
 AT = {"depth_mm": 2100, "field_deg": 4, "wavelength_nm": 546}

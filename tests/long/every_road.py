@@ -29,7 +29,7 @@ from time import process_time
 import numpy as np
 
 import p2sf
-from p2sf.camera import Camera, set_up_source
+from p2sf.camera import Camera
 from p2sf.errors import P2SFError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
@@ -37,6 +37,7 @@ from p2sf.lensfile.library import shipped_lenses
 from p2sf.psf.methods import whole_pixel_um
 from p2sf.raytrace.field_geometry import cone
 from p2sf.raytrace.spot import spot
+from p2sf.setting import set_up_source
 from p2sf.tolerance import Tolerance, differentials, harms, sensitivities, usual_sources, usual_tolerances
 from p2sf.tolerance.files import back_focus, with_compensators
 from tests.support.depths import NEAR_MM, RELAYS_MM, WIDEST_DEG

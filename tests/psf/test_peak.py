@@ -9,7 +9,6 @@ import pytest
 from numpy.polynomial.legendre import leggauss
 
 import p2sf
-from p2sf.camera import Request, set_up
 from p2sf.lens.lens import with_f_number
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
@@ -24,6 +23,7 @@ from p2sf.psf.spherical import spherical_pupil
 from p2sf.psf.sums.plane_waves import BLOCK, Waves
 from p2sf.pupil.domain import WHOLE
 from p2sf.raytrace.pencil import pencil
+from p2sf.setting import Request, set_up
 from tests.support.waves import waves
 
 SHARP = [("double_gauss_28", 11.0, 7.0), ("cooke_triplet", 16.0, 0.0), ("petzval", 11.0, 3.0)]  # f-number, field

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.special import j0, j1
 
-from p2sf.camera import Camera, set_up_source
+from p2sf.camera import Camera
 from p2sf.conventions import centred_axis
 from p2sf.errors import Cancelled
 from p2sf.glass.media import ConstantIndex
@@ -28,6 +28,7 @@ from p2sf.psf.sums.spherical_waves import waves_from
 from p2sf.pupil.domain import WHOLE
 from p2sf.raytrace.exit_sphere import ExitSphere, exit_sphere
 from p2sf.raytrace.pencil import Rays, pencil
+from p2sf.setting import set_up_source
 from tests.long.spherical_prediction import defocused, state, with_fresnel_number
 from tests.support.double_sum import double_sum, kirchhoff
 from tests.support.lenses.simple_lenses import simple

@@ -5,7 +5,6 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
-from p2sf.camera import MASK, Request, mask_of
 from p2sf.lens.lens import with_mask
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
@@ -17,6 +16,7 @@ from p2sf.pupil.mask_nodes import mask_nodes, throughput
 from p2sf.pupil.mask_outline import dark_heights, obstructions, opening
 from p2sf.pupil.open_part import edges_of
 from p2sf.raytrace.clear_pieces import piece_nodes
+from p2sf.setting import MASK, Request, mask_of
 
 MAP = PupilMap.sampled(lambda xi, eta: 0.6 + 0.3 * xi * eta + 0.2 * xi, 9)
 # A mask for every field, with another value than the default, beside the least that it needs to be seen.

@@ -16,12 +16,13 @@ from typing import Any
 import numpy as np
 
 import p2sf
-from p2sf.camera import Camera, set_up_source
+from p2sf.camera import Camera
 from p2sf.cli import main
 from p2sf.errors import P2SFError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.raytrace.spot import spot
+from p2sf.setting import set_up_source
 from p2sf.tolerance import differentials
 
 SAME = 5e-6  # relative: half a unit of six digits, which the command line prints

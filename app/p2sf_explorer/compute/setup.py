@@ -7,7 +7,6 @@ from functools import lru_cache
 from math import inf, isfinite
 from pathlib import Path
 
-from p2sf.camera import AS_IN_FILE, Request, Settings, Setup, mask_of, set_up, with_field
 from p2sf.errors import GeometryError, P2SFError
 from p2sf.lens.lens import Lens, with_mask
 from p2sf.lens.meridians import meridians
@@ -21,6 +20,7 @@ from p2sf.psf.methods import by_six
 from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.raytrace.field_geometry import Cone, cone
 from p2sf.raytrace.focusing import object_distance
+from p2sf.setting import AS_IN_FILE, Request, Settings, Setup, mask_of, set_up, with_field
 from p2sf.tolerance.errors_of_build import MOVES, source_of_build
 from p2sf_explorer.compute.ranges import (
     closest_distance,

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from datetime import date
 from typing import TypeVar
 
-from p2sf.camera import Request, explicit_values, set_up
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import Cancelled, P2SFError
 from p2sf.lens.lens import Lens
@@ -16,6 +15,7 @@ from p2sf.messages import Message
 from p2sf.metrics.performance import PerformanceTable
 from p2sf.paraxial.pupils import f_number
 from p2sf.psf.record import versions
+from p2sf.setting import Request, explicit_values, set_up
 from p2sf_explorer.compute.caption import field_text
 from p2sf_explorer.compute.layout import Layout, layout
 from p2sf_explorer.compute.live import Live, live
@@ -174,7 +174,7 @@ def portable(state: State) -> State:
 def requested_state(name: str, request: Request) -> State:
     """Return the state of the explorer that shows a lens as a request of the command line sets it.
 
-    What the explorer has no control for becomes part of its lens. Raises P2SFError as `p2sf.camera.set_up` does.
+    What the explorer has no control for becomes part of its lens. Raises P2SFError as `p2sf.setting.set_up` does.
     """
     lens, first = find_lens(name), default_state(name)
     given = explicit_values(request)

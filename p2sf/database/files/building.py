@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from p2sf.arguments import check_arguments, real_array
-from p2sf.camera import AS_IN_FILE, AimChoice, Camera, Request, StopChoice, explicit_values, set_up, with_camera
 from p2sf.conventions import NM_PER_UM, slope_from_degrees
 from p2sf.database import Space
 from p2sf.database.accuracy import build_by, check_kind
@@ -19,6 +18,7 @@ from p2sf.files.writing import check_ending, check_place
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
 from p2sf.parameters import check_angle
+from p2sf.setting import AS_IN_FILE, AimChoice, CameraData, Request, StopChoice, explicit_values, set_up, with_camera
 
 
 @check_arguments
@@ -33,7 +33,7 @@ def build_database(
     interpolant: Literal["exact", "table1", "linear"] = "exact",
     fields_x_deg: ArrayLike | None = None,
     path: str | PathLike[str] | None = None,
-    camera: Camera = AS_IN_FILE,
+    camera: CameraData = AS_IN_FILE,
     focus_mm: float | None = None,
     sensor_shift_um: float = 0.0,
     f_number: float | None = None,

@@ -7,7 +7,6 @@ from math import inf
 import pytest
 
 import p2sf
-from p2sf.camera import Request, set_up
 from p2sf.cli import main
 from p2sf.errors import LensFileError
 from p2sf.lens.lens import with_sensor
@@ -15,6 +14,7 @@ from p2sf.lens.positions import Axis, with_positions
 from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
 from p2sf.paraxial.positions import lens_at
 from p2sf.raytrace.focusing import object_distance
+from p2sf.setting import Request, set_up
 from p2sf_explorer.compute.setup import default_state, ranges
 from p2sf_explorer.report.contents import requested_state
 from tests.support.lenses.lens_files import FOLDER, read

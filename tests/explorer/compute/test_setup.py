@@ -6,12 +6,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from p2sf.camera import Request, set_up
 from p2sf.errors import P2SFError
 from p2sf.lens.lens import with_mask
 from p2sf.lensfile.library import find_lens, load_lens
 from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.pupil.mask import PupilMask
+from p2sf.setting import Request, set_up
 from p2sf_explorer.compute.layout import layout
 from p2sf_explorer.compute.setup import (
     default_state,

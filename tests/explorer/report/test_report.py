@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 import p2sf
-from p2sf.camera import Request, set_up
 from p2sf.cli import main
 from p2sf.errors import Cancelled, P2SFError
 from p2sf.lensfile.toml.lens import lens_to_toml
+from p2sf.setting import Request, set_up
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.i18n.language import set_language
 from p2sf_explorer.i18n.messages import WINDOW

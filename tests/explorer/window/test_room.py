@@ -5,10 +5,10 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QToolButton, QVBoxLayout, QWidget
 
-from p2sf.camera import Request
 from p2sf.errors import P2SFError
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml.lens import lens_to_toml
+from p2sf.setting import Request
 from p2sf_explorer.charts.painting import fitting, width_of
 from p2sf_explorer.charts.plots import ColourBar, HeatMap
 from p2sf_explorer.compute.glass_outlines import clear_rims, glass_of, still
