@@ -32,13 +32,8 @@ Named = Annotated[str | None, Parameter(help="A lens file, or the name of a ship
 Complete = Annotated[
     bool,
     Parameter(
-        negative="", help="Every representation of all PSFs of the lens, or of each shipped lens if none is named."
+        negative="", help="What every representation of all PSFs of a shipped lens costs, or of each if none is named."
     ),
-]
-Quick = Annotated[bool, Parameter(negative="", help="With --complete: one setting of each, at fewer points.")]
-Keep = Annotated[
-    Path | None,
-    Parameter(negative="", help="With --complete: a folder that keeps each lens's result, from which a run goes on."),
 ]
 Every = Annotated[bool, Parameter("--all", negative="", help="Every number of the listings, not their groups only.")]
 Sampling = Annotated[bool, Parameter(negative="", help="The error of the paper's FFT over NPUPIL and NPSF instead.")]
@@ -62,8 +57,6 @@ def tradeoff(
     camera: CameraFlags = AS_IN_ITS_FILE,
     pixels: Pixels = 64,
     complete: Complete = False,
-    quick: Quick = False,
-    keep: Keep = None,
     sampling: Sampling = False,
     samplings: Samplings = None,
     output: Output = None,
@@ -76,9 +69,9 @@ def tradeoff(
     from p2sf.cli import trades
     from p2sf.studies import tradeoff
 
-    trades.check_combination(complete, sampling, quick, keep, lens)
+    trades.check_combination(complete, sampling, lens)
     if complete:
-        return trades.complete(lens, quick, keep, output, as_json)
+        return trades.complete(lens, output, as_json)
     if sampling or lens is None:
         return trades.sampling(lens, output, as_json)
     check_output(output, WRITTEN, lens)

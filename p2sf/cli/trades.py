@@ -1,7 +1,5 @@
 """`p2sf tradeoff --complete` and `--sampling`: every representation of all PSFs, and the paper's two sample counts."""
 
-import sys
-from functools import partial
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -9,25 +7,18 @@ from p2sf.cli.cautions import open_lens
 from p2sf.cli.options import check_output
 from p2sf.cli.screen import print_json, print_table
 from p2sf.errors import RequestError
-from p2sf.files.writing import check_place, write_beside, write_json
-from p2sf.lensfile.library import shipped_lenses
+from p2sf.files.writing import write_beside, write_json
+from p2sf.messages import Alternatives
 from p2sf.studies import trade_fronts
-from p2sf.studies.complete_trade import DONE, LensTrade
-from p2sf.studies.trade_files import kept_or_compared, record, text_of
+from p2sf.studies.complete_trade import LensTrade, record, shipped_trades, text_of
 
 WRITTEN = (".json", ".csv", ".png")
 
 
-def complete(name: str | None, quick: bool, keep: Path | None, output: Path | None, as_json: bool) -> None:
-    """Compare all representations of one lens, or of every shipped one, and print, write or draw what they cost."""
+def complete(name: str | None, output: Path | None, as_json: bool) -> None:
+    """Print, write or draw what all representations of one shipped lens, or of each, were measured to cost."""
     check_output(output, WRITTEN, name)
-    if keep is not None:
-        check_place(keep / "lens.json")
-    names = shipped_lenses() if name is None else (name,)
-    trades = []
-    for number, one in enumerate(names, 1):
-        tell = partial(_tell, f"{one} ({number} of {len(names)})")
-        trades.append(kept_or_compared(open_lens(one), keep, quick, tell))
+    trades = _kept(name)
     if output is not None:
         _write(output, trades)
     if as_json:
@@ -39,10 +30,18 @@ def complete(name: str | None, quick: bool, keep: Path | None, output: Path | No
     return None
 
 
-def _tell(lens: str, words: str) -> None:
-    """Say on a terminal what is compared now, over what was said before."""
-    if sys.stderr.isatty():
-        print(f"\r\x1b[K{lens}: {words}", end="\n" if words == DONE else "", file=sys.stderr, flush=True)
+def _kept(name: str | None) -> list[LensTrade]:
+    """Return the kept trades of one lens, or of all; RequestError for a lens that has none."""
+    kept = shipped_trades()
+    if name is None:
+        return list(kept.values())
+    if name not in kept:
+        raise RequestError(
+            "{name} is none of the lenses whose complete trade is kept; choose {choices}",
+            name=name,
+            choices=Alternatives(kept),
+        )
+    return [kept[name]]
 
 
 def _print_lens(trade: LensTrade) -> None:
@@ -106,11 +105,9 @@ def sampling(name: str | None, output: Path | None, as_json: bool) -> None:
     )
 
 
-def check_combination(complete: bool, sampling: bool, quick: bool, keep: Path | None, name: str | None) -> None:
+def check_combination(complete: bool, sampling: bool, name: str | None) -> None:
     """Raise RequestError for flags that do not go together."""
     if complete and sampling:
         raise RequestError("--complete and --sampling are two studies; ask for one of them")
-    if (quick or keep) and not complete:
-        raise RequestError("--quick and --keep belong to --complete; add it, or leave them out")
     if name is None and not (complete or sampling):
         raise RequestError("no lens is named; give one, or --complete for all shipped lenses")

@@ -1,43 +1,26 @@
-"""The complete trade: every representation of a lens's PSFs, its error against bytes and against time.
+"""The complete trade of the shipped lenses: what every representation of PSFs costs and misses, as data and files.
 
-Each lens is taken over its `LensSpace`, in one window of 64² pixels, and judged at points at random that no
-representation was made with, against exact rays (`ExactPsfs`); a few of them are summed by Huygens too. What is fixed
-for all lenses (rates, bits, rules, cuts) was chosen by trials on `tessar` and `double_gauss_28` at these same points.
+Each lens was taken over its depths, fields and wavelengths, in one window of 64² pixels, and judged at points at random
+that no representation was made with, against exact rays; a few of them by Huygens sums too. The figures are measured
+once and kept with the program.
 """
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-from functools import partial
-from time import process_time
+import json
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass, fields
+from functools import lru_cache
+from os import PathLike
+from pathlib import Path
+from typing import Any
 
-import numpy as np
+from p2sf.errors import RequestError
+from p2sf.files.reading import parse_json, read_text
+from p2sf.files.reasons import reason
+from p2sf.files.writing import write_beside
 
-from p2sf.conventions import NM_PER_UM, degrees_from_slope
-from p2sf.errors import P2SFError
-from p2sf.lens.lens import Lens
-from p2sf.metrics.window import radius_of_energy
-from p2sf.psf.methods import REFERENCE
-from p2sf.psf.result import Psf
-from p2sf.studies.representations.coefficients import coefficient_representations
-from p2sf.studies.representations.fits import fitted_representations
-from p2sf.studies.representations.networks import network_representations
-from p2sf.studies.representations.pictures import grid_representations, pca_representations
-from p2sf.studies.representations.points import point_representations
-from p2sf.studies.representations.rays import ray_representations
-from p2sf.studies.representations.representation import ExactPsfs, Representation, huygens_picture
-from p2sf.studies.representations.shapes import shape_representations
-from p2sf.studies.representations.space import LensSpace, SpacePoints, lens_space
-from p2sf.studies.representations.zernike_grid import zernike_representations
-
-TESTED, TESTED_QUICK, SEED = 40, 12, 2026
-PROBED, PROBE_TOLERANCE = 3, 1e-6  # of them, by a Huygens sum that agrees so well with the one before
-PARTS = {"median": 0.5, "95 %": 0.95, "worst": 1.0}  # of the points whose error is no larger
-MEASURES = ("one_less_r2", "relative_l2", "mtf", "r80")
-SINGLE_FIELDS = 0.0, 0.7, 1.0  # of the largest field: the points taken alone, at the far end and the middle wavelength
-ENOUGH_SECONDS = 0.02  # of work, for a time
-SINGLES = 5  # calls of one point each, at most, for a median
-EIGHTY = 0.8
-DONE = "done"  # told when a lens is
+SHIPPED = Path(__file__).with_name("complete_trade.json")
+DIGITS = 3  # of measured numbers: times and errors are not known better
+SPREADS = ("one_less_r2", "relative_l2", "mtf", "r80")
 
 
 @dataclass(frozen=True)
@@ -47,15 +30,6 @@ class Spread:
     median: float
     most: float
     worst: float
-
-
-@dataclass(frozen=True, eq=False)
-class Truth:
-    """The points a representation is judged at, their unit-sum pictures (n, pixels, pixels) and R80 in pixels, (n,)."""
-
-    points: SpacePoints
-    pictures: np.ndarray
-    radius: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -115,155 +89,104 @@ class LensTrade:
     seconds: float
 
 
-Progress = Callable[[str], None]
+ROW = tuple(field.name for field in fields(Row))
 
 
-def _silent(words: str) -> None:
-    pass
+def record(trades: Iterable[LensTrade]) -> dict[str, Any]:
+    """Return trades as one JSON object.
 
-
-def compare_representations(lens: Lens, quick: bool = False, progress: Progress = _silent) -> LensTrade:
-    """Return the complete trade of one lens, on one thread; ``quick``: one setting of each family, fewer points.
-
-    ``progress`` is told what comes next. Raises GeometryError for a lens that has no space to compare in.
+    Rows are lists in the order of ``columns``. Their settings are places in ``settings``; an error is (median, 95 %,
+    worst), or one number where these are the same.
     """
-    from threadpoolctl import threadpool_limits
-
-    started = process_time()
-    with threadpool_limits(1):
-        space = lens_space(lens)
-        exact = ExactPsfs(space)
-        points = space.random(TESTED_QUICK if quick else TESTED, SEED)
-        progress("exact PSFs")
-        truth = truth_of(points, exact.at(points).astype(float))
-        few = points[:PROBED]
-        probed = truth_of(few, np.stack([huygens_picture(space, source, PROBE_TOLERANCE) for source in few.sources()]))
-        rows, refused = _rows(space, exact, truth, probed, quick, progress)
-        progress("single points")
-        singles = tuple(_singles(space, exact, quick))
-    progress(DONE)
-    truth_error = float(_one_less_r2(truth.pictures[:PROBED], probed.pictures).max())
-    words = lens.name, lens.title or lens.name, _words(space)
-    return LensTrade(*words, truth_error, tuple(rows), singles, tuple(refused), process_time() - started)
+    settings: dict[str, int] = {}
+    lenses = [_lens(trade, settings) for trade in trades]
+    return {"columns": ROW, "errors": ("median", "95 %", "worst"), "settings": list(settings), "lenses": lenses}
 
 
-def _families(space: LensSpace, exact: ExactPsfs, quick: bool) -> dict[str, Callable[[], Iterator[Representation]]]:
-    return {
-        "seidel": partial(coefficient_representations, space, quick),
-        "fitted": partial(fitted_representations, space, quick),
-        "Zernike grid": partial(zernike_representations, space, quick),
-        "PSF grid": partial(grid_representations, space, exact, quick),
-        "PCA": partial(pca_representations, space, exact, quick),
-        "neural": partial(network_representations, space, exact, quick),
-        "shapes": partial(shape_representations, space, exact, quick),
+def _lens(trade: LensTrade, settings: dict[str, int]) -> dict[str, Any]:
+    plain = asdict(trade)
+    plain["rows"] = [_row(row, settings) for row in trade.rows]
+    plain["singles"] = [[_short(field), [_row(row, settings) for row in rows]] for field, rows in trade.singles]
+    plain["truth_error"], plain["seconds"] = _short(trade.truth_error), _short(trade.seconds)
+    return plain
+
+
+def _row(row: Row, settings: dict[str, int]) -> list[Any]:
+    place = settings.setdefault(row.settings, len(settings))
+    return [place if name == "settings" else _cell(getattr(row, name)) for name in ROW]
+
+
+def _cell(value: Any) -> Any:
+    if isinstance(value, Spread):
+        three = [_short(x) for x in (value.median, value.most, value.worst)]
+        return three if len(set(three)) > 1 else three[0]
+    if isinstance(value, tuple):
+        return [_short(x) for x in value]
+    return _short(value) if isinstance(value, float) else value
+
+
+def _short(value: float) -> float | int:
+    rounded = float(f"{value:.{DIGITS}g}")
+    return int(rounded) if rounded.is_integer() else rounded
+
+
+def trades_of(found: dict[str, Any]) -> list[LensTrade]:
+    """Return the trades that `record` has put into JSON."""
+    return [_trade(lens, found["columns"], found["settings"]) for lens in found["lenses"]]
+
+
+def _trade(lens: dict[str, Any], columns: list[str], settings: list[str]) -> LensTrade:
+    space: dict[str, Any] = {
+        name: tuple(value) if isinstance(value, list) else value for name, value in lens["space"].items()
     }
-
-
-def _rows(
-    space: LensSpace, exact: ExactPsfs, truth: Truth, probed: Truth, quick: bool, progress: Progress
-) -> tuple[list[Row], list[tuple[str, str]]]:
-    """Return the rows of all families, and the families that this space refuses."""
-    rows: list[Row] = []
-    refused: list[tuple[str, str]] = []
-    for name, family in _families(space, exact, quick).items():
-        progress(name)
-        try:
-            rows += [measure_representation(made, truth) for made in family()]
-        except P2SFError as error:
-            refused.append((name, str(error)))
-    progress("rays")
-    # Rays are the truth of all others; theirs is a Huygens sum of more nodes.
-    rows += [measure_representation(made, probed) for made in ray_representations(space)]
-    return rows, refused
-
-
-def _singles(space: LensSpace, exact: ExactPsfs, quick: bool) -> Iterator[tuple[float, tuple[Row, ...]]]:
-    """Yield the field, °, and the rows of points taken alone."""
-    for part in SINGLE_FIELDS[1:2] if quick else SINGLE_FIELDS:
-        place = np.where(space.spread, [1.0, part, 0.5], 0.0)
-        point = space.at(place[None])
-        truth = truth_of(point, exact.at(point).astype(float))
-        made = point_representations(space, exact, point)
-        field = float(degrees_from_slope(point.field_slope[0]))
-        yield field, tuple(measure_representation(one, truth) for one in made if one.family != REFERENCE)
-
-
-def truth_of(points: SpacePoints, pictures: np.ndarray) -> Truth:
-    """Return what representations are judged by at some points, from unit-sum pictures (n, pixels, pixels)."""
-    return Truth(points, pictures, _radius_80(pictures))
-
-
-def measure_representation(made: Representation, truth: Truth) -> Row:
-    """Return what a representation costs, and its errors."""
-    points, wanted = truth.points, truth.pictures
-    found, batch = _time_call(lambda: made.psf(points))
-    singles = [points[k : k + 1] for k in range(min(SINGLES, len(points)))]
-    single = float(np.median([_time_call(partial(made.psf, one))[1] for one in singles]))
-    l2 = _relative_l2(found, wanted)
-    worst = int(l2.argmax())
-    place = points.depth_mm[worst], degrees_from_slope(points.field_slope[worst]), points.wavelength_um[worst]
-    depth, field, wave = (float(x) for x in place)
-    return Row(
-        family=made.family,
-        settings=made.settings,
-        numbers=made.numbers,
-        nbytes=made.nbytes,
-        build_seconds=made.seconds,
-        batch_us=1e6 * batch / len(points),
-        single_us=1e6 * single,
-        one_less_r2=_spread(_one_less_r2(found, wanted)),
-        relative_l2=_spread(l2),
-        mtf=_spread(_mtf_error(found, wanted)),
-        r80=_spread(np.abs(_radius_80(found) / truth.radius - 1)),
-        worst_at=(depth, field, wave * NM_PER_UM),
-        points=len(points),
+    return LensTrade(
+        **{
+            **lens,
+            "space": SpaceWords(**space),
+            "rows": tuple(_read_row(row, columns, settings) for row in lens["rows"]),
+            "singles": tuple(
+                (field, tuple(_read_row(row, columns, settings) for row in rows)) for field, rows in lens["singles"]
+            ),
+            "refused": tuple((name, why) for name, why in lens["refused"]),
+        }
     )
 
 
-def _time_call(work: Callable[[], np.ndarray]) -> tuple[np.ndarray, float]:
-    """Return the result and the mean CPU seconds of a call, of so many that a clock can tell; the first one counts."""
-    started, calls = process_time(), 0
-    while True:
-        found = work()
-        calls += 1
-        spent = process_time() - started
-        if spent >= ENOUGH_SECONDS:
-            return found, spent / calls
+def _read_row(row: list[Any], columns: list[str], settings: list[str]) -> Row:
+    cells = dict(zip(columns, row, strict=True))
+    spreads = {name: _spread(cells[name]) for name in SPREADS}
+    words = settings[cells["settings"]]
+    return Row(**{**cells, **spreads, "settings": words, "worst_at": tuple(cells["worst_at"])})
 
 
-def _spread(errors: np.ndarray) -> Spread:
-    return Spread(*(float(np.quantile(errors, part, method="higher")) for part in PARTS.values()))
+def _spread(cell: Any) -> Spread:
+    return Spread(*(cell if isinstance(cell, list) else (cell, cell, cell)))
 
 
-def _relative_l2(found: np.ndarray, truth: np.ndarray) -> np.ndarray:
-    """Return ‖found − truth‖/‖truth‖ of unit-sum pictures, (n,)."""
-    error: np.ndarray = np.linalg.norm(found - truth, axis=(1, 2)) / np.linalg.norm(truth, axis=(1, 2))
-    return error
+def save_trades(path: str | PathLike[str], trades: Iterable[LensTrade]) -> Path:
+    """Write trades as JSON, a lens's rows one a line, whole or not at all. Raises ExportError."""
+    return write_beside(path, lambda handle: handle.write(text_of(trades).encode()))
 
 
-def _one_less_r2(found: np.ndarray, truth: np.ndarray) -> np.ndarray:
-    """Return Σ(found − truth)²/Σ(truth − mean)² of unit-sum pictures, (n,)."""
-    about_mean = truth - truth.mean((1, 2), keepdims=True)
-    error: np.ndarray = np.square(found - truth).sum((1, 2)) / np.square(about_mean).sum((1, 2))
-    return error
+def text_of(trades: Iterable[LensTrade]) -> str:
+    """Return trades as compact JSON, one row a line, so that two versions can be compared."""
+    text = json.dumps(record(trades), separators=(",", ":"), ensure_ascii=False, allow_nan=False)
+    return text.replace('],["', '],\n["').replace('},{"lens"', '},\n{"lens"') + "\n"
 
 
-def _mtf_error(found: np.ndarray, truth: np.ndarray) -> np.ndarray:
-    """Return the largest difference of the windows' tangential or sagittal contrast up to the pixels' Nyquist, (n,)."""
-    lines = [np.concatenate([x.sum(2), x.sum(1)], axis=1).reshape(len(x), 2, -1) for x in (found, truth)]
-    one, other = (np.abs(np.fft.rfft(line, axis=-1)) for line in lines)
-    error: np.ndarray = np.abs(one - other).max((1, 2))
-    return error
+def load_trades(path: str | PathLike[str]) -> list[LensTrade]:
+    """Return the trades of a file that `save_trades` wrote; RequestError for any other."""
+    try:
+        return trades_of(parse_json(read_text(path)))
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise RequestError(
+            "{path} holds no complete trade ({reason}); write one with p2sf tradeoff --complete -o",
+            path=str(path),
+            reason=reason(error),
+        ) from error
 
 
-def _radius_80(pictures: np.ndarray) -> np.ndarray:
-    """Return the radius that holds 80 % of each window's light about its centroid, pixels, (n,)."""
-    return radius_of_energy(Psf(pictures, 1.0, 1.0, "", None), EIGHTY)
-
-
-def _words(space: LensSpace) -> SpaceWords:
-    low, high = (float(degrees_from_slope(slope)) for slope in space.slopes)
-    blue, red = (wave * NM_PER_UM for wave in space.wavelengths_um)
-    window = space.window
-    depths = space.f_number, space.near_mm, space.far_mm
-    return SpaceWords(*depths, (low, high), (blue, red), window.pixels, window.pixel_um, window.across)
+@lru_cache(maxsize=1)
+def shipped_trades() -> dict[str, LensTrade]:
+    """Return the trades of the shipped lenses by name, measured once and kept with the program."""
+    return {trade.lens: trade for trade in load_trades(SHIPPED)}

@@ -29,7 +29,7 @@ from p2sf.measure.reading import read_counts
 from p2sf.measure.target import read_target
 from p2sf.scene.files import read_scene
 from p2sf.scene.filters import filter_channels
-from p2sf.studies.trade_files import load_trades
+from p2sf.studies.complete_trade import load_trades
 from p2sf_explorer.lessons.lesson import read_lesson
 from p2sf_explorer.lessons.task_record import read_result
 from p2sf_explorer.state.state_files import read_state

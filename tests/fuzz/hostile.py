@@ -27,7 +27,7 @@ from p2sf.io.photo_files import read_photo
 from p2sf.io.psf_files import read_psf
 from p2sf.lensfile.toml.lens import parse_toml
 from p2sf.scene.filters import filter_channels
-from p2sf.studies.trade_files import load_trades
+from p2sf.studies.complete_trade import load_trades
 from p2sf_explorer.files.opening import open_file, refusal
 from p2sf_explorer.lessons.lesson import read_lesson
 from p2sf_explorer.lessons.task_record import read_result

@@ -9,13 +9,23 @@ import pytest
 from p2sf.errors import RequestError
 from p2sf.lensfile.library import find_lens
 from p2sf.psf.compare import r_squared, relative_l2
-from p2sf.studies import complete_trade as study
-from p2sf.studies.complete_trade import LensTrade, Row, SpaceWords, Spread, measure_representation, truth_of
-from p2sf.studies.representations.representation import Representation
-from p2sf.studies.representations.space import SpacePoints
+from p2sf.studies.complete_trade import (
+    LensTrade,
+    Row,
+    SpaceWords,
+    Spread,
+    load_trades,
+    record,
+    save_trades,
+    shipped_trades,
+    trades_of,
+)
 from p2sf.studies.sampling import sampling_map
-from p2sf.studies.trade_files import load_trades, record, save_trades, trades_of
 from p2sf.studies.trade_fronts import batch_us, equal_bytes, error, front, nbytes, within
+from tests.benchmarks import complete_trade as study
+from tests.benchmarks.complete_trade import kept_or_compared, measure_representation, truth_of
+from tests.benchmarks.representations.representation import Representation
+from tests.benchmarks.representations.space import SpacePoints
 
 
 def blur(sigma, count=4):
@@ -107,19 +117,27 @@ def short(monkeypatch):
 
 
 @pytest.mark.slow
-def test_the_command_compares_prints_and_goes_on_from_what_it_kept(short, answer, tmp_path, said):
-    command = ("tradeoff", "reverse_telephoto", "--complete", "--quick", "--keep", tmp_path)
+def test_a_comparison_goes_on_from_what_it_kept(short, tmp_path):
+    lens = find_lens("reverse_telephoto")
+    found = kept_or_compared(lens, tmp_path, quick=True)
+    assert found.lens == "reverse_telephoto" and found.space.pixels == 64 and found.truth_error < 1e-6
+    assert {row.family for row in found.rows} == {"seidel", "traced", "huygens"}
+    kept = kept_or_compared(lens, tmp_path, quick=True)
+    assert record([kept]) == record([found]), "kept, times and all"
+    seidel = next(row for row in kept.rows if row.family == "seidel")
+    assert error(seidel) == seidel.relative_l2.median
+
+
+def test_the_command_prints_and_writes_what_is_kept(answer, tmp_path, said):
+    command = ("tradeoff", "tessar", "--complete")
     found = answer(*command)
-    [lens] = trades_of(found)
-    assert lens.lens == "reverse_telephoto" and lens.space.pixels == 64 and lens.truth_error < 1e-6
-    assert {row.family for row in lens.rows} == {"seidel", "traced", "huygens"}
-    assert found["says"][0]["front_bytes"] and answer(*command) == found, "kept, times and all"
+    assert trades_of(found) == [shipped_trades()["tessar"]] and found["says"][0]["front_bytes"]
     for ending, start in ((".png", b"\x89PNG"), (".csv", b"lens;rep"), (".json", b'{"colum')):
         text = said(*command, "-o", tmp_path / f"x{ending}")
         assert (tmp_path / f"x{ending}").read_bytes().startswith(start)
     assert "One PSF alone" in text and "six coefficients" in text
-    seidel = next(row for row in lens.rows if row.family == "seidel")
-    assert error(seidel) == seidel.relative_l2.median
+    assert load_trades(tmp_path / "x.json") == [shipped_trades()["tessar"]]
+    assert len(trades_of(answer("tradeoff", "--complete"))) == len(shipped_trades())
 
 
 @pytest.mark.parametrize(
@@ -127,8 +145,7 @@ def test_the_command_compares_prints_and_goes_on_from_what_it_kept(short, answer
     [
         ([], "no lens is named"),
         (["tessar", "--complete", "--sampling"], "two studies"),
-        (["tessar", "--quick"], "belong to --complete"),
-        (["tessar", "--complete", "--keep", "nowhere/at/all"], "make the folder first"),
+        (["nowhere.zmx", "--complete"], "none of the lenses whose complete trade is kept"),
         (["--complete", "-o", "x.bmp"], '".bmp" is unknown'),
     ],
 )

@@ -11,11 +11,11 @@ from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.fitted import fitted_psf, sum_fit
 from p2sf.psf.seidel import seidel_psf
 from p2sf.raytrace.fit import levels
-from p2sf.studies.representations import pictures
-from p2sf.studies.representations.coefficients import coefficient_representations
-from p2sf.studies.representations.fits import _cut, importance
-from p2sf.studies.representations.networks import LEARNING_RATE, gradient_of, outputs_of, started_weights, train
-from p2sf.studies.representations.pictures import (
+from tests.benchmarks.representations import pictures
+from tests.benchmarks.representations.coefficients import coefficient_representations
+from tests.benchmarks.representations.fits import _cut, importance
+from tests.benchmarks.representations.networks import LEARNING_RATE, gradient_of, outputs_of, started_weights, train
+from tests.benchmarks.representations.pictures import (
     best_grids,
     grid_representations,
     pca_representations,
@@ -23,11 +23,11 @@ from p2sf.studies.representations.pictures import (
     quantise,
     scores_of,
 )
-from p2sf.studies.representations.rays import prescription_numbers
-from p2sf.studies.representations.representation import ExactPsfs, traced_picture
-from p2sf.studies.representations.shapes import fitted_shape, shape_values
-from p2sf.studies.representations.space import lens_space
-from p2sf.studies.representations.zernike_grid import pencil_of, wavefront
+from tests.benchmarks.representations.rays import prescription_numbers
+from tests.benchmarks.representations.representation import ExactPsfs, traced_picture
+from tests.benchmarks.representations.shapes import fitted_shape, shape_values
+from tests.benchmarks.representations.space import lens_space
+from tests.benchmarks.representations.zernike_grid import pencil_of, wavefront
 
 
 @pytest.fixture(scope="module")

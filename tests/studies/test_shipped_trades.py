@@ -1,7 +1,7 @@
 """What the shipped complete trade says: all lenses, all groups, and who is ahead at equal bytes."""
 
 from p2sf.lensfile.library import shipped_lenses
-from p2sf.studies.trade_files import shipped_trades
+from p2sf.studies.complete_trade import shipped_trades
 from p2sf.studies.trade_fronts import GROUPS, equal_bytes, group_of
 from p2sf_explorer.handbook.pages import page
 

@@ -8,9 +8,9 @@ from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.traced import traced_psf
-from p2sf.studies.representations.interpolation import node_weights
-from p2sf.studies.representations.representation import mirror_halves, right_half
-from p2sf.studies.representations.space import DEFOCUS_WAVES, Window, lens_space
+from tests.benchmarks.representations.interpolation import node_weights
+from tests.benchmarks.representations.representation import mirror_halves, right_half
+from tests.benchmarks.representations.space import DEFOCUS_WAVES, Window, lens_space
 
 
 @pytest.fixture(scope="module")

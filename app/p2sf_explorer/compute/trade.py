@@ -2,8 +2,7 @@
 
 from dataclasses import dataclass
 
-from p2sf.studies.complete_trade import LensTrade, Row, Spread
-from p2sf.studies.trade_files import shipped_trades
+from p2sf.studies.complete_trade import LensTrade, Row, Spread, shipped_trades
 from p2sf_explorer.compute.method_bounds import PredictedCost
 from p2sf_explorer.state.state import State
 

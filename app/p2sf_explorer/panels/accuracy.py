@@ -55,7 +55,7 @@ GROUP_COLOURS = {
     "traced": "text",
     "huygens": "#d64545",
 }
-NOT_TRADED = "The complete trade has been measured for shipped lenses; for others, run p2sf tradeoff LENS --complete"
+NOT_TRADED = "The complete trade has been measured for shipped lenses only"
 Anchor = tuple[float, float]
 MARGIN_PX = 14  # between the outer dots and the edge of their plot
 DOT_PX = 4.5  # radius

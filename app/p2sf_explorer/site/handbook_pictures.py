@@ -18,7 +18,7 @@ from p2sf.cli import main as p2sf
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.writing import lens_to_toml
 from p2sf.psf.methods import METHODS
-from p2sf.studies.trade_files import SHIPPED, shipped_trades
+from p2sf.studies.complete_trade import SHIPPED, shipped_trades
 from p2sf.studies.trade_plots import draw_trades
 from p2sf_explorer.handbook.pages import FOLDER
 from p2sf_explorer.site.pictures import FIRST, WINDOW, shown_windows
@@ -32,7 +32,7 @@ WINDOWS = {"window.png": FIRST, "compare.png": WINDOW["window_compared.png"]}
 LENS = "double_gauss_28"
 PLOTS = {
     "tradeoff.png": ("tradeoff", LENS),
-    "complete_trade.png": ("tradeoff", "--complete"),  # which takes 18 minutes: drawn from the figures that are kept
+    "complete_trade.png": ("tradeoff", "--complete"),  # drawn from the figures that are kept, without the command
     "sampling.png": ("tradeoff", "--sampling"),
 }
 

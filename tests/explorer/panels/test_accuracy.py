@@ -8,7 +8,7 @@ import pytest
 from PySide6.QtCore import QPointF
 from PySide6.QtWidgets import QApplication
 
-from p2sf.studies.trade_files import shipped_trades
+from p2sf.studies.complete_trade import shipped_trades
 from p2sf_explorer.charts.theme import LIGHT
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.reference import MethodResult

@@ -3,7 +3,7 @@
 import pytest
 from PySide6.QtCore import Qt
 
-from p2sf.studies.trade_files import shipped_trades
+from p2sf.studies.complete_trade import shipped_trades
 from p2sf_explorer.compute.method_bounds import PredictedCost
 from p2sf_explorer.widgets.exactness_slider import MEASURES, round_to_series
 from p2sf_explorer.widgets.slider import STEPS

@@ -20,10 +20,10 @@ from p2sf.pupil.quadrature import disc_nodes
 from p2sf.pupil.zernike import basis, terms
 from p2sf.raytrace.fit import FittedPencil, Level
 from p2sf.raytrace.pencil import pencil
-from p2sf.studies.representations.interpolation import Counts, Rule, node_weights
-from p2sf.studies.representations.pictures import used_counts
-from p2sf.studies.representations.representation import Representation
-from p2sf.studies.representations.space import LensSpace, SpacePoints
+from tests.benchmarks.representations.interpolation import Counts, Rule, node_weights
+from tests.benchmarks.representations.pictures import used_counts
+from tests.benchmarks.representations.representation import Representation
+from tests.benchmarks.representations.space import LensSpace, SpacePoints
 
 ORDERS = 4, 6, 8
 # Depths, fields and wavelengths. Of few nodes the straight line did better, of more the spline, on the lenses tried.

@@ -10,7 +10,7 @@ from p2sf.lens.source import Source
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.traced import traced_psf
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
-from p2sf.studies.representations.space import LensSpace, SpacePoints
+from tests.benchmarks.representations.space import LensSpace, SpacePoints
 
 KEY_DIGITS = 9  # of a place's coordinates, by which a PSF is remembered
 

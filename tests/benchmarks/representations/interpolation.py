@@ -6,7 +6,7 @@ from typing import Literal
 
 import numpy as np
 
-from p2sf.studies.representations.space import axis_nodes
+from tests.benchmarks.representations.space import axis_nodes
 
 Rule = Literal["nearest", "linear", "cubic"]
 RULES: tuple[Rule, ...] = ("nearest", "linear", "cubic")

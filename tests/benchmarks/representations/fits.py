@@ -16,8 +16,8 @@ from p2sf.psf.fitted import sum_fit
 from p2sf.raytrace.fit import fit, level_rays, levels
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import steepness
-from p2sf.studies.representations.representation import Representation
-from p2sf.studies.representations.space import LensSpace, SpacePoints
+from tests.benchmarks.representations.representation import Representation
+from tests.benchmarks.representations.space import LensSpace, SpacePoints
 
 # Most that a dropped term may change the phase where rays land, waves.
 CUTS = {

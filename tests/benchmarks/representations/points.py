@@ -12,13 +12,13 @@ from p2sf.psf.fitted import sum_fit
 from p2sf.psf.seidel import seidel_psf
 from p2sf.pupil.zernike import terms
 from p2sf.raytrace.fit import FittedPencil, fit, levels
-from p2sf.studies.representations.fits import ADAPTIVE_WAVES
-from p2sf.studies.representations.pictures import STEPS, quantise
-from p2sf.studies.representations.rays import ray_representations
-from p2sf.studies.representations.representation import ExactPsfs, Representation, right_half
-from p2sf.studies.representations.shapes import SHAPES, fitted_shape, shape_values
-from p2sf.studies.representations.space import LensSpace, SpacePoints
-from p2sf.studies.representations.zernike_grid import MAP, ORDERS, pencil_of, wavefront
+from tests.benchmarks.representations.fits import ADAPTIVE_WAVES
+from tests.benchmarks.representations.pictures import STEPS, quantise
+from tests.benchmarks.representations.rays import ray_representations
+from tests.benchmarks.representations.representation import ExactPsfs, Representation, right_half
+from tests.benchmarks.representations.shapes import SHAPES, fitted_shape, shape_values
+from tests.benchmarks.representations.space import LensSpace, SpacePoints
+from tests.benchmarks.representations.zernike_grid import MAP, ORDERS, pencil_of, wavefront
 
 VALUE_BYTES = 4
 

@@ -12,10 +12,10 @@ from time import process_time
 import numpy as np
 
 from p2sf.conventions import centred_axis
-from p2sf.studies.representations.interpolation import Counts, Rule, node_weights
-from p2sf.studies.representations.pictures import used_counts
-from p2sf.studies.representations.representation import ExactPsfs, Representation, clipped_to_unit_sum
-from p2sf.studies.representations.space import LensSpace, SpacePoints
+from tests.benchmarks.representations.interpolation import Counts, Rule, node_weights
+from tests.benchmarks.representations.pictures import used_counts
+from tests.benchmarks.representations.representation import ExactPsfs, Representation, clipped_to_unit_sum
+from tests.benchmarks.representations.space import LensSpace, SpacePoints
 
 SHAPES = {"Gaussian": 3, "generalised Gaussian": 4, "Moffat": 4}  # numbers of each
 GRIDS: tuple[tuple[Counts, Rule], ...] = ((1, 3, 1), "linear"), ((3, 3, 3), "linear"), ((3, 5, 3), "cubic")

@@ -10,8 +10,8 @@ from p2sf.database.exact import ExactDatabase, exact_series
 from p2sf.database.grid import GridDatabase, traced_grid
 from p2sf.database.render import Database, Sampling, render_source
 from p2sf.paraxial.pupils import find_stop
-from p2sf.studies.representations.representation import Representation
-from p2sf.studies.representations.space import LensSpace, SpacePoints
+from tests.benchmarks.representations.representation import Representation
+from tests.benchmarks.representations.space import LensSpace, SpacePoints
 
 TERMS = 6, 24  # of a Chebyshev series in wavelength; 24 is what `build_database` starts with
 GRIDS = (3, 3, 3), (5, 5, 3), (9, 9, 5)  # depths, fields, wavelengths

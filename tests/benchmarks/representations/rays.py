@@ -6,8 +6,8 @@ import numpy as np
 
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.studies.representations.representation import Representation, huygens_picture, traced_picture
-from p2sf.studies.representations.space import LensSpace, SpacePoints
+from tests.benchmarks.representations.representation import Representation, huygens_picture, traced_picture
+from tests.benchmarks.representations.space import LensSpace, SpacePoints
 
 PER_SURFACE = 3  # curvature, thickness, clear radius
 PER_GLASS = 6  # of Sellmeier's formula

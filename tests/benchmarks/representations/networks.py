@@ -15,15 +15,15 @@ from typing import NamedTuple
 import numpy as np
 
 from p2sf.conventions import centred_axis
-from p2sf.studies.representations.pictures import BUDGETS, SMALL_BUDGET, best_grids, principal, quantise, scores_of
-from p2sf.studies.representations.representation import (
+from tests.benchmarks.representations.pictures import BUDGETS, SMALL_BUDGET, best_grids, principal, quantise, scores_of
+from tests.benchmarks.representations.representation import (
     ExactPsfs,
     Representation,
     clipped_to_unit_sum,
     mirror_halves,
     right_half,
 )
-from p2sf.studies.representations.space import LensSpace, SpacePoints
+from tests.benchmarks.representations.space import LensSpace, SpacePoints
 
 Weights = list[np.ndarray]
 """A matrix (inputs, outputs) and a vector (outputs,) for each layer, in turn."""

@@ -7,15 +7,15 @@ from time import process_time
 
 import numpy as np
 
-from p2sf.studies.representations.interpolation import RULES, Counts, Rule, node_weights
-from p2sf.studies.representations.representation import (
+from tests.benchmarks.representations.interpolation import RULES, Counts, Rule, node_weights
+from tests.benchmarks.representations.representation import (
     ExactPsfs,
     Representation,
     clipped_to_unit_sum,
     mirror_halves,
     right_half,
 )
-from p2sf.studies.representations.space import LensSpace, SpacePoints, axis_nodes
+from tests.benchmarks.representations.space import LensSpace, SpacePoints, axis_nodes
 
 NODES = 1, 2, 3, 5, 9, 17  # of an axis
 BUDGETS = 1, 2, 4, 8, 16, 32, 64, 128, 256, 450  # nodes; 450 half pictures of 64² in 8 bits are one megabyte
