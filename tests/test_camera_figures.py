@@ -8,7 +8,8 @@ import pytest
 import p2sf
 from p2sf.errors import P2SFError
 from p2sf.paraxial.first_order import cardinal_points
-from p2sf.tolerance import Tolerance, share_within
+from p2sf.tolerance.criteria import share_within
+from p2sf.tolerance.errors_of_build import Tolerance
 
 LENS = p2sf.load_lens("achromat_f6")
 CAMERA = p2sf.Camera(LENS, focus_mm=4000, f_number=8, pixel_um=40.0, obscuration=0.2, sensor_shift_um=15)

@@ -15,8 +15,9 @@ from threadpoolctl import ThreadpoolController, threadpool_info, threadpool_limi
 
 import p2sf
 from p2sf import threads
-from p2sf.database import Space, build_database
+from p2sf.database.build import build_database
 from p2sf.database.render import Sampling, render_source
+from p2sf.database.space import Space
 from p2sf.errors import Cancelled, RequestError
 from p2sf.threads import AHEAD, for_each, map_threads, one_blas_thread, threads_or_default, using_threads
 

@@ -15,12 +15,12 @@ from p2sf.cli.lookups import accuracy_rows
 from p2sf.cli.options import AS_IN_ITS_FILE, CameraFlags, Json, LensName, Threads, check_samples
 from p2sf.cli.screen import FILLED, Row, print_json, print_table, text, warn
 from p2sf.conventions import NM_PER_UM, degrees_from_slope, slope_from_degrees
-from p2sf.database import Space
 from p2sf.database.accuracy import DatabaseAccuracy, accuracy, build_by, check_kind
-from p2sf.database.files import load_database, provenance, save_database
+from p2sf.database.files.npz import load_database, save_database
 from p2sf.database.files.place import is_stack, place_of, size_bytes
-from p2sf.database.files.provenance import axis_names
+from p2sf.database.files.provenance import axis_names, provenance
 from p2sf.database.render import Database, Sampling
+from p2sf.database.space import Space
 from p2sf.errors import RequestError
 from p2sf.files.writing import check_ending, check_place, plain
 from p2sf.lens.lens import Lens

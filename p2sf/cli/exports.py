@@ -55,7 +55,7 @@ def export(
     beside = Path(file.rpartition("/")[2] if is_url(file) else file)
     target = output or beside.with_suffix(ENDINGS[to][0])
     _WRITERS[to](file, target, picture)
-    from p2sf.export import open_database
+    from p2sf.export.psf_cube import open_database
 
     known = open_database(file).accuracy
     if as_json:
@@ -67,33 +67,35 @@ def export(
 
 
 def _iset(file: str, target: Path, picture: RenderedOptions) -> None:
-    from p2sf.export import IsetOptions, open_database, write_iset
+    from p2sf.export.iset import IsetOptions, write_iset
+    from p2sf.export.psf_cube import open_database
 
     options = IsetOptions(picture.depth_mm, picture.pixels or IsetOptions().pixels, picture.pixel_um)
     write_iset(open_database(file), target, options)
 
 
 def _fits(file: str, target: Path, picture: RenderedOptions) -> None:
-    from p2sf.export import write_fits
+    from p2sf.export.fits import write_fits
 
     write_fits(_cube(file, picture), target)
 
 
 def _tiff(file: str, target: Path, picture: RenderedOptions) -> None:
-    from p2sf.export import write_tiff
+    from p2sf.export.tiff import write_tiff
 
     write_tiff(_cube(file, picture), target)
 
 
 def _csv(file: str, target: Path, picture: RenderedOptions) -> None:
-    from p2sf.export import open_database, write_csv
+    from p2sf.export.coefficient_table import write_csv
+    from p2sf.export.psf_cube import open_database
 
     write_csv(open_database(file), target)
 
 
 def _cube(file: str, picture: RenderedOptions) -> "Cube":
     """Return all PSFs of a file, and show how far their rendering is."""
-    from p2sf.export import open_cube
+    from p2sf.export.psf_cube import open_cube
 
     with percent_line() as tell:
         return open_cube(file, Sampling(picture.pixels or Sampling().pixels, picture.pixel_um), tell)

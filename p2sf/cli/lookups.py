@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 from p2sf.cli.screen import Row, field_text
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
-from p2sf.database import ExactDatabase
 from p2sf.database.accuracy import DatabaseAccuracy
-from p2sf.database.files import Stored
+from p2sf.database.exact import ExactDatabase
+from p2sf.database.files.provenance import Stored
 from p2sf.database.render import pixels_psf
 from p2sf.errors import RequestError
 from p2sf.lens.source import Source
@@ -19,8 +19,8 @@ from p2sf.psf.result import Psf
 from p2sf.setting import Request, explicit_values
 
 if TYPE_CHECKING:
-    from p2sf.database import GridDatabase
     from p2sf.database.fitted import FittedDatabase
+    from p2sf.database.grid import GridDatabase
 
     Database = ExactDatabase | GridDatabase | FittedDatabase
 
@@ -48,7 +48,7 @@ def looked_up(name: str, request: Request, pixels: int, pixel_um: float | None) 
 
     Raises RequestError for what only the lens could answer, DatabaseError outside what the database covers.
     """
-    from p2sf.export import open_database
+    from p2sf.export.psf_cube import open_database
 
     stored = open_database(name)
     for parameter in explicit_values(request):

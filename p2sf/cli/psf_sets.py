@@ -16,7 +16,7 @@ from p2sf.conventions import NM_PER_UM
 from p2sf.errors import RequestError
 from p2sf.export.psf_set import PIXEL_UM, PIXELS, PixelGrid, PsfSet, SetAxes, axes_of, left_out, psf_set
 from p2sf.export.psf_set_files import WRITERS, table, write_psf_set
-from p2sf.image import Progress
+from p2sf.image.progress import Progress
 from p2sf.io.record import describe_many
 from p2sf.messages import ParameterName
 from p2sf.parameters import check_angle, check_positive

@@ -34,10 +34,12 @@ from p2sf.io.record import RECORD, describe_many
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message, ParameterName
 from p2sf.raytrace.focusing import object_distance
-from p2sf.scene import Plan, Scene, Sensor, plan, read_scene, verify
+from p2sf.scene.files import read_scene
+from p2sf.scene.planning.plan import Plan, plan
 from p2sf.scene.planning.table import plan_facts, plan_rows, plan_sentences
-from p2sf.scene.scene import DIMMEST, MOST_LIGHT, RGB
-from p2sf.scene.sensor import LARGEST_SIDE
+from p2sf.scene.planning.verify import verify
+from p2sf.scene.scene import DIMMEST, MOST_LIGHT, RGB, Scene
+from p2sf.scene.sensor import LARGEST_SIDE, Sensor
 from p2sf.setting import explicit_values, set_up
 from p2sf.threads import using_threads
 
@@ -331,9 +333,10 @@ def source_picture(picture: str, scene: Scene, shown: Shown) -> Photo:
 
 
 def _form_picture(glass: Lens, scene: Scene, values: np.ndarray, shown: Shown) -> tuple[np.ndarray, dict[str, Any]]:
-    from p2sf.image import Forming, form_image, preview
     from p2sf.image.binning import fit_screen
+    from p2sf.image.form import Forming, form_image
     from p2sf.image.picture import region_of_sensor
+    from p2sf.image.preview import preview
 
     if shown.preview:
         return preview(glass, scene, values), {"method": "preview"}
@@ -376,8 +379,8 @@ def _noisy(formed: np.ndarray, shown: Shown) -> np.ndarray:
 
 def _sharpen(planned: Plan, formed: np.ndarray, depth: np.ndarray | None, shown: Shown, noise: float) -> np.ndarray:
     """Return the picture sharpened with its kernels, assuming the noise of 8 bits at least."""
-    from p2sf.image import plan_lattice
     from p2sf.image.deblur import LEAST_NOISE, richardson_lucy
+    from p2sf.image.form import plan_lattice
     from p2sf.image.picture import sharpen_planned
 
     if shown.deblur == "wiener":

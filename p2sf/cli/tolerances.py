@@ -14,26 +14,12 @@ from p2sf.errors import RequestError
 from p2sf.lens.source import Source
 from p2sf.parameters import check_positive
 from p2sf.setting import Setup, set_up
-from p2sf.tolerance import (
-    Builds,
-    Criterion,
-    Differentials,
-    by_form,
-    differentials,
-    form_errors,
-    harms,
-    of_worst_field,
-    sensitivities,
-    share_within,
-    simulate,
-    usual_sources,
-    usual_tolerances,
-)
-from p2sf.tolerance.builds import SUMMED_RMS
-from p2sf.tolerance.criteria import CRITERIA, LARGE_IS_GOOD
-from p2sf.tolerance.errors_of_build import UNITS, Tolerance
+from p2sf.tolerance.builds import SUMMED_RMS, Builds, by_form, simulate
+from p2sf.tolerance.criteria import CRITERIA, LARGE_IS_GOOD, Criterion, harms, of_worst_field, share_within
+from p2sf.tolerance.differentials import Differentials, differentials, usual_sources
+from p2sf.tolerance.errors_of_build import UNITS, Tolerance, usual_tolerances
 from p2sf.tolerance.files import back_focus, read_tolerances, with_compensators
-from p2sf.tolerance.single import INVALID
+from p2sf.tolerance.single import INVALID, form_errors, sensitivities
 
 COLUMNS: dict[Criterion, str] = {
     "rms_waves": "adds to the worst RMS, waves",

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM, degrees_from_slope
-from p2sf.database.files import Stored
+from p2sf.database.files.provenance import Stored
 from p2sf.export.psf_cube import check_line
 from p2sf.files.writing import plain, write_beside
 

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope
-from p2sf.database.files import Stored
+from p2sf.database.files.provenance import Stored
 from p2sf.database.render import Sampling, critical_pixel_um, rendered_light
 from p2sf.errors import ExportError
 from p2sf.export.psf_cube import check_line

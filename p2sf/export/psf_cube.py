@@ -8,8 +8,9 @@ from typing import Any, Protocol
 import numpy as np
 
 from p2sf.arguments import check_arguments
-from p2sf.database.files import Stored, load_database
+from p2sf.database.files.npz import load_database
 from p2sf.database.files.place import is_stack
+from p2sf.database.files.provenance import Stored
 from p2sf.database.files.stack import open_stack, read_psfs
 from p2sf.database.render import Sampling, critical_pixel_um, light_of, samples_per_pixel
 from p2sf.errors import DatabaseError

@@ -10,7 +10,7 @@ import numpy as np
 from p2sf.conventions import NM_PER_UM, slope_from_degrees
 from p2sf.database.accuracy import where
 from p2sf.errors import GeometryError, RequestError, SamplingError
-from p2sf.image import Progress
+from p2sf.image.progress import Progress
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message

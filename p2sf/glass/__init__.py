@@ -2,31 +2,3 @@
 
 `dispersion` contains the makers' formulas, `catalogue` finds a glass by its name, `media` gives both one interface.
 """
-
-from p2sf.glass.media import (
-    AIR,
-    CatalogueGlass,
-    ConstantIndex,
-    Medium,
-    ModelGlass,
-    TabulatedIndex,
-    catalogue_glass,
-    constant_index,
-    measured_index,
-    model_glass,
-    parse_medium,
-)
-
-__all__ = [
-    "AIR",
-    "CatalogueGlass",
-    "ConstantIndex",
-    "Medium",
-    "ModelGlass",
-    "TabulatedIndex",
-    "catalogue_glass",
-    "constant_index",
-    "measured_index",
-    "model_glass",
-    "parse_medium",
-]

@@ -3,8 +3,8 @@
 import numpy as np
 
 from p2sf.image.region import Region, whole
-from p2sf.pixel_kernels import SensorMap
 from p2sf.pixel_kernels.illumination import relative_illumination
+from p2sf.pixel_kernels.sensor_points import SensorMap
 from p2sf.scene.sensor import Sensor
 from p2sf.threads import map_threads
 

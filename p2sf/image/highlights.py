@@ -13,8 +13,7 @@ import numpy as np
 from p2sf.image.lattice import pad_to_largest
 from p2sf.image.region import Region, whole
 from p2sf.metrics.tails import FAINTEST, FARTHEST
-from p2sf.pixel_kernels import RAYS, Colour, Kernels
-from p2sf.pixel_kernels.channel import Points
+from p2sf.pixel_kernels.channel import RAYS, Colour, Kernels, Points
 from p2sf.pixel_kernels.pixels import LARGEST_WINDOW, samples_each
 from p2sf.pixel_kernels.pupil_stack import PupilStack
 from p2sf.pupil.mask_cells import wings

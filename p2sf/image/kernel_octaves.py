@@ -14,12 +14,12 @@ from p2sf.conventions import UM_PER_MM
 from p2sf.image.components import KernelNodes, octave_responses
 from p2sf.image.slabs import LEVELS
 from p2sf.lens.lens import Lens
-from p2sf.pixel_kernels import Recipe, SensorMap
-from p2sf.pixel_kernels.channel import Colour, PointLights
+from p2sf.pixel_kernels.channel import Colour, PointLights, Recipe
 from p2sf.pixel_kernels.landing_light import landing_kernels
 from p2sf.pixel_kernels.nodes import nodes_along
 from p2sf.pixel_kernels.pupil_stack import PupilStack
 from p2sf.pixel_kernels.pupil_table import PupilTable, chebyshev, pupil_table
+from p2sf.pixel_kernels.sensor_points import SensorMap
 from p2sf.scene.planning.adaptive_table import PupilAt
 from p2sf.scene.planning.pricing import computed_counts, mirrored
 from p2sf.scene.planning.study import Study, pad_kernel

@@ -11,8 +11,7 @@ from p2sf.image.form import Forming, form_image, plan_lattice
 from p2sf.image.lattice import Lattice
 from p2sf.image.progress import Progress
 from p2sf.lens.lens import Lens
-from p2sf.pixel_kernels import RAYS, Recipe
-from p2sf.pixel_kernels.channel import Light
+from p2sf.pixel_kernels.channel import RAYS, Light, Recipe
 from p2sf.pixel_kernels.pixels import LARGEST_WINDOW, samples_across
 from p2sf.pixel_kernels.pupil_stack import PixelPupil
 from p2sf.raytrace.fit import levels_for

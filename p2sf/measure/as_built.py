@@ -7,8 +7,9 @@ from pathlib import Path
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM, slope_from_degrees
-from p2sf.database import Space, build_database, depth_nodes
-from p2sf.database.files import save_database
+from p2sf.database.build import build_database
+from p2sf.database.files.npz import save_database
+from p2sf.database.space import Space
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens, with_sensor
 from p2sf.lens.misalignment import with_tilted_sensor
@@ -17,6 +18,7 @@ from p2sf.lensfile.writing import write_lens
 from p2sf.measure.fitting.frame_fit import FrameFit
 from p2sf.measure.fitting.frame_terms import FIELD
 from p2sf.messages import Message
+from p2sf.spans import depth_nodes
 from p2sf.tolerance.errors_of_build import build
 
 NEAR_MM, LIGHT_UM = 500.0, (0.4, 0.7)  # of a database's depths and wavelengths, if the measurement is within

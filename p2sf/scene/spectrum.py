@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from p2sf.pixel_kernels import Colour
+from p2sf.pixel_kernels.channel import Colour
 from p2sf.scene.scene import Channel
 
 

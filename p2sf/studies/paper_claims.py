@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM, UM_PER_MM, slope_from_degrees
-from p2sf.database import Space, depth_nodes
 from p2sf.database.build import build_exact
+from p2sf.database.space import Space
 from p2sf.lens.lens import Lens, with_aim, with_f_number, with_sensor
 from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import find_stop
@@ -14,6 +14,7 @@ from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.seidel import seidel_psf
+from p2sf.spans import depth_nodes
 
 HOLDS, FAILS = "reproduced", "not reproduced"
 CONSTANT = 1.2  # growth of a stage's time that still counts as almost none: the scatter of timings on a busy machine

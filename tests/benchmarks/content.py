@@ -15,11 +15,14 @@ from unittest import mock
 
 import numpy as np
 
-from p2sf.image import form, form_image
+from p2sf.image import form
 from p2sf.image.binning import fit_screen
+from p2sf.image.form import form_image
 from p2sf.image.region import Region
 from p2sf.lensfile.library import find_lens
-from p2sf.scene import Scene, Sensor, plan
+from p2sf.scene.planning.plan import plan
+from p2sf.scene.scene import Scene
+from p2sf.scene.sensor import Sensor
 from tests.support.depth_scenes import leaves, posts, stairs
 from tests.support.kernel_counts import counted_kernels
 

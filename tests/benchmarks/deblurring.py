@@ -16,14 +16,16 @@ from time import process_time
 import numpy as np
 
 from p2sf.colour.colorimetry import srgb_from_linear
-from p2sf.image import plan_lattice
 from p2sf.image.blur_operator import BlurOperator
 from p2sf.image.charts import draw_chart
 from p2sf.image.deblur import photo_statistics, psnr, richardson_lucy, wiener
+from p2sf.image.form import plan_lattice
 from p2sf.image.lattice import Lattice
 from p2sf.image.similarity import ssim
 from p2sf.lensfile.library import find_lens
-from p2sf.scene import Channel, Scene, Sensor, plan
+from p2sf.scene.planning.plan import plan
+from p2sf.scene.scene import Channel, Scene
+from p2sf.scene.sensor import Sensor
 
 SIDE, BORDER = 256, 24  # pixels; beyond the border all is black, which only Richardson-Lucy knows, so it does not count
 CHARTS = ("landscape", "text"), ("siemens_star", "checkerboard")

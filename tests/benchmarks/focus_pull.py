@@ -19,11 +19,11 @@ from typing import Any
 
 import numpy as np
 
-from p2sf.image import form_image
 from p2sf.image.charts import draw_chart
+from p2sf.image.form import form_image
 from p2sf.io.photo_files import write_photo
 from p2sf.lensfile.library import find_lens
-from p2sf.scene import plan
+from p2sf.scene.planning.plan import plan
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.views.depths import depth_map
 from p2sf_explorer.compute.views.image import (

@@ -22,13 +22,15 @@ from unittest import mock
 
 import numpy as np
 
-from p2sf.image import form, form_image
+from p2sf.image import form
 from p2sf.image.blur_operator import BlurOperator
 from p2sf.image.charts import draw_chart
+from p2sf.image.form import form_image
 from p2sf.lensfile.library import find_lens
-from p2sf.pixel_kernels import Kernels
-from p2sf.pixel_kernels.channel import Points
-from p2sf.scene import Scene, Sensor, plan
+from p2sf.pixel_kernels.channel import Kernels, Points
+from p2sf.scene.planning.plan import plan
+from p2sf.scene.scene import Scene
+from p2sf.scene.sensor import Sensor
 
 PARTS = {
     "kernels": ((Kernels, "points"), (Points, "kernels")),

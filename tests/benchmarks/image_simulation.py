@@ -31,13 +31,15 @@ from scipy.ndimage import gaussian_filter, shift
 from scipy.optimize import least_squares
 
 from p2sf import write_lens
-from p2sf.image import Forming, form_image
+from p2sf.image.form import Forming, form_image
 from p2sf.image.layers import map_depths
 from p2sf.lensfile.library import find_lens
-from p2sf.pixel_kernels import Recipe
-from p2sf.scene import Channel, Plan, Scene, Sensor, plan
+from p2sf.pixel_kernels.channel import Recipe
+from p2sf.scene.planning.plan import Plan, plan
 from p2sf.scene.planning.reference import reference_kernel
 from p2sf.scene.planning.study import distance
+from p2sf.scene.scene import Channel, Scene
+from p2sf.scene.sensor import Sensor
 from p2sf.scene.spectrum import reduce_spectrum
 from p2sf.threads import using_threads
 from tests.support.depth_scenes import SCENES

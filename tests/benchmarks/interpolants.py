@@ -9,12 +9,14 @@ nodes' own wavelengths, of which the paper's table says nothing.
 import numpy as np
 
 from p2sf.conventions import slope_from_degrees
-from p2sf.database import Space, build_database, depth_nodes
+from p2sf.database.build import build_database
 from p2sf.database.departure import departures, largest
 from p2sf.database.parts import KINDS
+from p2sf.database.space import Space
 from p2sf.lensfile.library import find_lens, shipped_lenses
 from p2sf.paraxial.pupils import pupils
 from p2sf.paraxial.seidel import coefficients
+from p2sf.spans import depth_nodes
 
 POINTS = 20_000
 

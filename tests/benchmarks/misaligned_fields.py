@@ -12,18 +12,22 @@ from time import process_time
 import numpy as np
 
 from p2sf.conventions import slope_from_degrees
-from p2sf.database import Space, depth_nodes
-from p2sf.database.files import save_database
+from p2sf.database.files.npz import save_database
 from p2sf.database.fitted_build import build_fitted
 from p2sf.database.render import database_psf
-from p2sf.image import form_image
+from p2sf.database.space import Space
+from p2sf.image.form import form_image
 from p2sf.lens.lens import Lens, with_f_number
 from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.psf.fitted import fitted_psf
-from p2sf.scene import Plan, Scene, Sensor, plan, verify
+from p2sf.scene.planning.plan import Plan, plan
+from p2sf.scene.planning.verify import verify
+from p2sf.scene.scene import Scene
+from p2sf.scene.sensor import Sensor
+from p2sf.spans import depth_nodes
 from tests.support.exact_lattice import exact_lattice
 
 ERROR = Placement(0.15, 0.1, 0.02, 0.2, 0.3)  # of the elements between the third and the fifth surface

@@ -20,17 +20,19 @@ from time import process_time
 import numpy as np
 
 from p2sf.conventions import slope_from_degrees
-from p2sf.database import Space, build_database, depth_nodes
+from p2sf.database.build import build_database
 from p2sf.database.cost import products
-from p2sf.database.files import database_bytes
+from p2sf.database.files.npz import database_bytes
 from p2sf.database.files.place import size_bytes
 from p2sf.database.files.stack import Stack
 from p2sf.database.files.stack_write import StackProgress, chunk_costs, psf_count, write_chunk, write_stack
 from p2sf.database.render import Sampling
+from p2sf.database.space import Space
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.pixel_integrals import critical_pixel_um
 from p2sf.psf.seidel_stack import stack_of
+from p2sf.spans import depth_nodes
 from p2sf.threads import one_blas_thread
 
 LENS = "double_gauss_28"

@@ -12,11 +12,13 @@ import pytest
 from threadpoolctl import threadpool_limits
 
 from p2sf.conventions import slope_from_degrees
-from p2sf.database import INTERPOLANTS, Space, build_database, depth_nodes
+from p2sf.database.build import INTERPOLANTS, build_database
 from p2sf.database.departure import scatter
-from p2sf.database.files import database_bytes
+from p2sf.database.files.npz import database_bytes
 from p2sf.database.render import Sampling, render_source
+from p2sf.database.space import Space
 from p2sf.lensfile.library import find_lens
+from p2sf.spans import depth_nodes
 from p2sf.threads import using_threads
 
 FIELDS = slope_from_degrees(np.linspace(0, 14, 20))

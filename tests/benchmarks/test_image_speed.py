@@ -12,13 +12,16 @@ from time import perf_counter, process_time
 
 import pytest
 
-from p2sf.image import Forming, form_image, plan_lattice, preview
 from p2sf.image.blur_operator import BlurOperator
 from p2sf.image.charts import draw_chart
 from p2sf.image.deblur import richardson_lucy
+from p2sf.image.form import Forming, form_image, plan_lattice
 from p2sf.image.lowrank import decompose, low_rank_blur
+from p2sf.image.preview import preview
 from p2sf.lensfile.library import find_lens
-from p2sf.scene import Channel, Scene, Sensor, plan
+from p2sf.scene.planning.plan import plan
+from p2sf.scene.scene import Channel, Scene
+from p2sf.scene.sensor import Sensor
 
 ROWS, COLUMNS, WIDTH_UM = 832, 1248, 36000.0
 WHOLE_S, PREVIEW_S, MEMORY_GIB = 6.0, 0.2, 1.5

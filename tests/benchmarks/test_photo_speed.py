@@ -19,7 +19,7 @@ ROWS, COLUMNS = 3000, 4000
 MOST_S, MOST_GIB = 40.0, 2.0
 MADE = """
 import json, resource, sys, time
-from p2sf.image import Progress
+from p2sf.image.progress import Progress
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.views.image import pixels, planned, question
 from p2sf_explorer.state.state import new_state

@@ -29,8 +29,8 @@ Calls = dict[str, Callable[[], object]]
 def public_calls() -> Calls:
     """Return every call of the public API that computes, as users make it, and the sums below it."""
     import p2sf
-    from p2sf.image import preview
     from p2sf.image.charts import draw_chart
+    from p2sf.image.preview import preview
 
     lens = p2sf.load_lens("double_gauss_28")
     corner, near = p2sf.Source(field_deg=10), p2sf.Source(field_deg=10, depth_mm=3000)
@@ -70,8 +70,9 @@ def public_calls() -> Calls:
 def stack_calls(lens) -> Calls:
     """Return stacks of PSFs: of a database near focus and of large blur, of coefficients, of a fitted database."""
     import p2sf
-    from p2sf.database import Space, build_database
+    from p2sf.database.build import build_database
     from p2sf.database.render import Sampling, render_source
+    from p2sf.database.space import Space
     from p2sf.psf.seidel import seidel_psf
 
     blurred = Space(np.linspace(800, 1000, 4), np.linspace(0, 0.2, 5), np.array([0.5, 0.6]))
@@ -92,9 +93,11 @@ def shared_calls() -> Calls:
     """Return the calls that two threads share."""
     import p2sf
     from p2sf.conventions import slope_from_degrees
-    from p2sf.database import Space, build_database, depth_nodes
+    from p2sf.database.build import build_database
     from p2sf.database.render import Sampling, render_source
+    from p2sf.database.space import Space
     from p2sf.image.charts import draw_chart
+    from p2sf.spans import depth_nodes
 
     lens = p2sf.load_lens("double_gauss_28")
     space = Space(depth_nodes(60_000), slope_from_degrees(np.linspace(0, 14, 20)), np.linspace(0.42, 0.7, 31))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from p2sf.cli import main
-from p2sf.database.files import load_database
+from p2sf.database.files.npz import load_database
 from p2sf.database.files.stack import open_stack
 from p2sf.io.psf_files import read_psf
 from p2sf.lens.lens import with_f_number

@@ -8,7 +8,7 @@ import pytest
 import p2sf
 from p2sf.cli import main
 from p2sf.lensfile.toml.lens import write_toml
-from p2sf.scene import read_scene
+from p2sf.scene.files import read_scene
 from tests.support.lenses.zooms import focusing_zoom, two_group_zoom, zoom_lens_at
 
 

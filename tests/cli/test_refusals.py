@@ -16,15 +16,15 @@ from p2sf.lens.lens import Aperture, Lens, Surface, with_aim
 from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source
-from p2sf.lensfile import load_lens
-from p2sf.lensfile.library import find_lens
+from p2sf.lensfile.library import find_lens, load_lens
 from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.lensfile.writing import SILICA_LABEL, write_lens
 from p2sf.paraxial.pupils import pupils
 from p2sf.psf.huygens import huygens_psf
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.spot import spot
-from p2sf.scene import Sensor, read_scene
+from p2sf.scene.files import read_scene
+from p2sf.scene.sensor import Sensor
 from tests.support.lenses.lens_files import read, read_file
 from tests.support.lenses.simple_lenses import twice_telecentric
 

@@ -10,10 +10,10 @@ from p2sf.camera import Camera
 from p2sf.cli import main
 from p2sf.cli.scenes import depth_map
 from p2sf.errors import RequestError
-from p2sf.image import plan_lattice
 from p2sf.image.deblur import photo_statistics
+from p2sf.image.form import plan_lattice
 from p2sf.io.photo_files import read_photo, write_photo
-from p2sf.scene import read_scene
+from p2sf.scene.files import read_scene
 from tests.long.sharpening import texture
 
 SCENE = """

@@ -8,8 +8,8 @@ from p2sf.cli import main
 from p2sf.cli.tolerances import WORST
 from p2sf.errors import LensFileError
 from p2sf.lensfile.library import find_lens
-from p2sf.tolerance import Tolerance, usual_tolerances
 from p2sf.tolerance.builds import SUMMED_RMS
+from p2sf.tolerance.errors_of_build import Tolerance, usual_tolerances
 from p2sf.tolerance.files import back_focus, read_tolerances, with_compensators
 
 STATE = "--f-number", "8", "--field-deg", "5"

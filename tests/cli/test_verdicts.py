@@ -6,7 +6,7 @@ import shutil
 import pytest
 
 from p2sf.cli import main
-from p2sf.lensfile import load_lens
+from p2sf.lensfile.library import load_lens
 from p2sf.paraxial.first_order import cardinal_points
 from tests.long.damaged_files import zar_of, zip_of
 from tests.support.lenses.lens_files import FOLDER, text_of

@@ -3,15 +3,17 @@
 import numpy as np
 import pytest
 
-from p2sf.database import Space, build_database, depth_nodes
+from p2sf.database.build import build_database
 from p2sf.database.departure import departures, largest, scatter
 from p2sf.database.exact import LENGTHS, NUMBERS
 from p2sf.database.parts import KINDS
+from p2sf.database.space import Space
 from p2sf.errors import DatabaseError, P2SFError
 from p2sf.lens.lens import with_sensor
 from p2sf.lensfile.library import find_lens, shipped_lenses
 from p2sf.paraxial.pupils import find_stop
 from p2sf.paraxial.seidel import coefficients
+from p2sf.spans import depth_nodes
 from tests.benchmarks.interpolants import points_in, space_for
 from tests.support.lenses.dispersive_lenses import bent_lens, dispersive_lens
 from tests.support.lenses.mirrors import aplanatic, mangin, telescope, two_mirrors

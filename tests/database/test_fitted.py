@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from p2sf.database import Space, depth_nodes
 from p2sf.database.departure import departures
-from p2sf.database.files import load_database, save_database
+from p2sf.database.files.npz import load_database, save_database
 from p2sf.database.fitted import FieldLine, powers, split
 from p2sf.database.fitted_build import TOLERANCE_WAVES, build_fitted, held_out, ray_error
 from p2sf.database.render import Sampling, database_psf, render_source
+from p2sf.database.space import Space
 from p2sf.errors import DatabaseError
 from p2sf.lens.lens import with_aim
 from p2sf.lens.source import Source
@@ -19,6 +19,7 @@ from p2sf.psf.fitted import fitted_intensity, fitted_psf, sum_fit
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from p2sf.raytrace.fit import LEVELS, fit, levels
 from p2sf.raytrace.pencil import pencil
+from p2sf.spans import depth_nodes
 from tests.support.waves import relative_l2
 
 SPACE = Space(depth_nodes(3000), np.tan(np.deg2rad(np.linspace(0, 14, 5))), np.linspace(0.5, 0.6, 5))

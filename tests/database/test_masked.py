@@ -9,13 +9,14 @@ import pytest
 
 import p2sf
 from p2sf.conventions import centred_axis
-from p2sf.database import INTERPOLANTS, Space, build_database, depth_nodes
-from p2sf.database.files import Stored, database_bytes, database_from_bytes, provenance, same_database
-from p2sf.database.files.npz import MARK
+from p2sf.database.build import INTERPOLANTS, build_database
+from p2sf.database.files.npz import MARK, database_bytes, database_from_bytes, same_database
+from p2sf.database.files.provenance import Stored, provenance
 from p2sf.database.files.sealed import seal, unseal
 from p2sf.database.fitted_build import build_fitted
 from p2sf.database.parts import KINDS
 from p2sf.database.render import Sampling, database_psf, render_source
+from p2sf.database.space import Space
 from p2sf.errors import DatabaseError, ExportError
 from p2sf.export.iset import write_iset
 from p2sf.lens.lens import with_mask
@@ -28,6 +29,7 @@ from p2sf.psf.methods import render
 from p2sf.psf.seidel import seidel_psf
 from p2sf.pupil.mask import PupilMap, PupilMask
 from p2sf.pupil.mask_nodes import mask_nodes
+from p2sf.spans import depth_nodes
 from tests.support.waves import relative_l2
 
 LENS = find_lens("double_gauss_28")

@@ -6,14 +6,15 @@ import json
 import numpy as np
 import pytest
 
-from p2sf.database import INTERPOLANTS, Space, build_database, depth_nodes
-from p2sf.database.files import load_database, save_database
-from p2sf.database.files.npz import MARK
+from p2sf.database.build import INTERPOLANTS, build_database
+from p2sf.database.files.npz import MARK, load_database, save_database
 from p2sf.database.files.sealed import DIGITS, read_sealed, write_sealed
 from p2sf.database.parts import KINDS
+from p2sf.database.space import Space
 from p2sf.errors import DatabaseError, ExportError, P2SFError
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.seidel import coefficients
+from p2sf.spans import depth_nodes
 
 SPACE = Space(depth_nodes(500), np.tan(np.deg2rad(np.linspace(0, 14, 20))), np.linspace(0.4, 0.7, 31))
 

@@ -9,7 +9,7 @@ from p2sf.database.files.place import is_url, place_of, size_bytes
 from p2sf.database.files.stack import open_stack, read_psfs
 from p2sf.database.files.stack_write import StackProgress, write_stack
 from p2sf.errors import DatabaseError
-from p2sf.export import open_cube
+from p2sf.export.psf_cube import open_cube
 from tests.database.test_stack import SAMPLING, contents, small
 from tests.support.cluster import running_cluster
 

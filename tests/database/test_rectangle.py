@@ -6,14 +6,17 @@ import numpy as np
 import pytest
 
 from p2sf.conventions import slope_from_degrees
-from p2sf.database import Space, build_database
-from p2sf.database.files import Stored, load_database, provenance, save_database
+from p2sf.database.build import build_database
+from p2sf.database.files.npz import load_database, save_database
+from p2sf.database.files.provenance import Stored, provenance
 from p2sf.database.files.stack import open_stack, read_psfs
 from p2sf.database.files.stack_write import write_stack
 from p2sf.database.fitted_build import TOLERANCE_WAVES, build_fitted
 from p2sf.database.render import Sampling, database_psf, render_source
+from p2sf.database.space import Space
 from p2sf.errors import DatabaseError, GeometryError
-from p2sf.export import open_cube, write_csv
+from p2sf.export.coefficient_table import write_csv
+from p2sf.export.psf_cube import open_cube
 from p2sf.lens.lens import with_f_number, with_mask
 from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement

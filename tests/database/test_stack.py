@@ -14,13 +14,15 @@ import numpy as np
 import pytest
 
 from p2sf.conventions import slope_from_degrees
-from p2sf.database import Space, build_database, depth_nodes
+from p2sf.database.build import build_database
 from p2sf.database.files.stack import chunk_shape, open_stack, read_psfs
 from p2sf.database.files.stack_write import StackProgress, psf_count, write_stack
 from p2sf.database.render import Sampling, rendered_light
+from p2sf.database.space import Space
 from p2sf.errors import DatabaseError
 from p2sf.lens.lens import with_aim
 from p2sf.lensfile.library import find_lens
+from p2sf.spans import depth_nodes
 
 ROOT = Path(__file__).parents[2]
 SAMPLING = Sampling(32, 1.0)

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from p2sf.database.files import load_database
+from p2sf.database.files.npz import load_database
 from p2sf.database.files.stack import open_stack
 from p2sf.database.fitted_build import build_fitted
 from p2sf.database.render import database_psf

@@ -12,25 +12,22 @@ import pytest
 
 from p2sf.cli import main, screen
 from p2sf.conventions import slope_from_degrees
-from p2sf.database import Space, build_database, depth_nodes
-from p2sf.database.files import save_database
+from p2sf.database.build import build_database
+from p2sf.database.files.npz import save_database
 from p2sf.database.files.stack_write import write_stack
 from p2sf.database.render import Sampling, rendered_light
+from p2sf.database.space import Space
 from p2sf.errors import DatabaseError, ExportError
-from p2sf.export import (
-    IsetOptions,
-    open_cube,
-    open_database,
-    write_csv,
-    write_fits,
-    write_iset,
-    write_tiff,
-)
-from p2sf.export.iset import polygon_area, ray_trace
+from p2sf.export.coefficient_table import write_csv
+from p2sf.export.fits import write_fits
+from p2sf.export.iset import IsetOptions, polygon_area, ray_trace, write_iset
+from p2sf.export.psf_cube import open_cube, open_database
+from p2sf.export.tiff import write_tiff
 from p2sf.io.fits_psf import read_psf_fits, write_psf_fits
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.seidel import seidel_psf
+from p2sf.spans import depth_nodes
 
 SAMPLING = Sampling(32, 1.5)
 

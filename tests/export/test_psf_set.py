@@ -14,7 +14,7 @@ from p2sf.conventions import slope_from_degrees
 from p2sf.errors import Cancelled, ExportError, GeometryError, RequestError
 from p2sf.export.psf_set import PixelGrid, PsfSet, SetAxes, psf_set
 from p2sf.export.psf_set_files import table, write_psf_set
-from p2sf.image import Progress
+from p2sf.image.progress import Progress
 from p2sf.lens.lens import with_f_number
 from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement

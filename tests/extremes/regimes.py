@@ -8,9 +8,8 @@ import numpy as np
 from mpmath import binomial, mpf, sqrt
 
 from p2sf.glass.media import MIRROR, ConstantIndex
-from p2sf.lens import Qbfs, Qcon, RadialPolynomial
 from p2sf.lens.lens import Aperture, Lens, Surface
-from p2sf.lens.shapes import Shape
+from p2sf.lens.shapes import Qbfs, Qcon, RadialPolynomial, Shape
 from p2sf.paraxial.first_order import basis_rays, cardinal_points
 from tests.support.lenses.mirrors import aplanatic, classical, folded, mangin, mirror, two_mirrors
 from tests.support.lenses.mirrors import telescope as corrected_telescope

@@ -9,9 +9,10 @@ import numpy as np
 import tifffile
 from PIL import Image
 
-from p2sf.database import Space, build_database
+from p2sf.database.build import build_database
 from p2sf.database.files.npz import MARK, database_bytes
 from p2sf.database.files.sealed import seal
+from p2sf.database.space import Space
 from p2sf.io.photo_files import write_photo
 from p2sf.io.png_text import with_text
 from p2sf.io.psf_files import write_psf

@@ -14,9 +14,10 @@ from functools import cache
 import numpy as np
 
 from p2sf.cli import main
-from p2sf.database import Space, build_database
+from p2sf.database.build import build_database
 from p2sf.database.files.npz import MARK, database_bytes, database_from_bytes
 from p2sf.database.files.sealed import DIGITS, SEAL, seal, unseal
+from p2sf.database.space import Space
 from p2sf.errors import P2SFError
 from p2sf.io.photo_files import read_photo
 from p2sf.io.psf_files import read_psf

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from numpy.lib.stride_tricks import sliding_window_view
 
-from p2sf.image import form_image
-from p2sf.image.form import DepthKernels
+from p2sf.image.form import DepthKernels, form_image
 from p2sf.image.progress import Progress
 from p2sf.pixel_kernels.nodes import hats
 from p2sf.scene.planning.study import distance, weighted_sum

@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 
 from p2sf.errors import RequestError
-from p2sf.image import Forming, form_image
 from p2sf.image.binning import block_means, fit_screen, times_to_fit
+from p2sf.image.form import Forming, form_image
 from p2sf.image.preview import preview_plan
 from p2sf.lensfile.library import find_lens
-from p2sf.scene import Channel, Scene, Sensor
+from p2sf.scene.scene import Channel, Scene
+from p2sf.scene.sensor import Sensor
 
 GREEN = (Channel("green", (540.0,), (1.0,)),)
 LENS = find_lens("double_gauss_28")

@@ -5,7 +5,7 @@ import pytest
 from scipy.ndimage import convolve
 
 from p2sf.errors import RequestError
-from p2sf.image import deblur, plan_lattice
+from p2sf.image import deblur
 from p2sf.image.blur_operator import BlurOperator
 from p2sf.image.charts import draw_chart
 from p2sf.image.deblur import (
@@ -18,10 +18,13 @@ from p2sf.image.deblur import (
     wiener_by_depth,
     with_one_kernel,
 )
+from p2sf.image.form import plan_lattice
 from p2sf.image.lattice import Lattice
 from p2sf.image.layers import DepthMap
 from p2sf.lensfile.library import find_lens
-from p2sf.scene import Channel, Scene, Sensor, plan
+from p2sf.scene.planning.plan import plan
+from p2sf.scene.scene import Channel, Scene
+from p2sf.scene.sensor import Sensor
 from tests.benchmarks import deblurring
 from tests.long.sharpening import SIDE, plain_filters, texture
 from tests.support.tiers import in_tiers

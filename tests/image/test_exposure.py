@@ -11,12 +11,15 @@ from p2sf.cli import main
 from p2sf.cli.scenes import Shown, noise_of
 from p2sf.colour.spectrum import relative_power, spectrum_of
 from p2sf.errors import RequestError
-from p2sf.image import Forming, expose, form_image, raw_numbers
+from p2sf.image.exposure import expose, raw_numbers
+from p2sf.image.form import Forming, form_image
 from p2sf.image.preview import preview_plan
 from p2sf.io.dng import RawLevels, write_dng
 from p2sf.lensfile.library import find_lens
-from p2sf.scene import Scene, Sensor, read_scene
+from p2sf.scene.files import read_scene
 from p2sf.scene.filters import filter_channels
+from p2sf.scene.scene import Scene
+from p2sf.scene.sensor import Sensor
 
 SHAPE = 300, 400, 1
 COUNT = 300 * 400

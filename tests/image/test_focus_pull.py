@@ -5,16 +5,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from p2sf.image import form_image
 from p2sf.image.components import KernelNodes, blur, components, over_picture
 from p2sf.image.focus_pull import MOVING, focused_picture, keep
+from p2sf.image.form import form_image
 from p2sf.image.geometry import illumination
 from p2sf.image.kernel_octaves import halved, octave_kernels, setting
 from p2sf.image.octaves import block_means, enlarge, finest_octave, octave_weights
 from p2sf.image.slabs import LEVELS, Slab, cut_into_slabs, cuts, depth_levels
 from p2sf.lensfile.library import find_lens
 from p2sf.pixel_kernels.landing_light import landing_kernels
-from p2sf.scene import Scene, Sensor, plan
+from p2sf.scene.planning.plan import plan
+from p2sf.scene.scene import Scene
+from p2sf.scene.sensor import Sensor
 
 SHAPE = 96, 144
 RNG = np.random.default_rng(5)

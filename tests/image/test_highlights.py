@@ -4,15 +4,18 @@ import numpy as np
 import pytest
 
 from p2sf.errors import RequestError
-from p2sf.image import Forming, form_image
+from p2sf.image.form import Forming, form_image
 from p2sf.image.highlights import BrightLight, add_halo, groups_of
 from p2sf.lens.lens import with_f_number, with_mask
 from p2sf.lensfile.library import find_lens
 from p2sf.metrics.tails import FAINTEST
 from p2sf.pixel_kernels.pixels import rim_gain
 from p2sf.pupil.mask import PupilMask
-from p2sf.scene import Channel, Scene, Sensor, plan, read_scene
+from p2sf.scene.files import read_scene
+from p2sf.scene.planning.plan import plan
 from p2sf.scene.planning.reference import reference_kernel
+from p2sf.scene.scene import Channel, Scene
+from p2sf.scene.sensor import Sensor
 from tests.benchmarks import faint_tails, forming
 from tests.support.tiers import in_tiers
 

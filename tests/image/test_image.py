@@ -6,19 +6,24 @@ import numpy as np
 import pytest
 
 from p2sf.errors import Cancelled, RequestError
-from p2sf.image import Forming, Progress, form, form_image, preview
+from p2sf.image import form
 from p2sf.image.blur_operator import BlurOperator
 from p2sf.image.charts import draw_chart
+from p2sf.image.form import Forming, form_image
 from p2sf.image.geometry import distort, distortion_px, illumination
 from p2sf.image.lattice import NodeKernels, build_lattice, choose_step, computed_nodes, weights_between
 from p2sf.image.lowrank import decompose, low_rank_blur
-from p2sf.image.preview import preview_plan
+from p2sf.image.preview import preview, preview_plan
+from p2sf.image.progress import Progress
 from p2sf.image.region import whole
 from p2sf.lensfile.library import find_lens
-from p2sf.pixel_kernels import Colour, Kernels, Recipe, sensor_map
+from p2sf.pixel_kernels.channel import Colour, Kernels, Recipe
 from p2sf.pixel_kernels.nodes import nodes_along
+from p2sf.pixel_kernels.sensor_points import sensor_map
 from p2sf.psf.huygens import huygens_psf
-from p2sf.scene import Channel, Scene, Sensor, plan
+from p2sf.scene.planning.plan import plan
+from p2sf.scene.scene import Channel, Scene
+from p2sf.scene.sensor import Sensor
 from p2sf.threads import using_threads
 from tests.support.direct_sum import direct_sum
 

@@ -6,11 +6,13 @@ import numpy as np
 import pytest
 
 from p2sf.errors import RequestError
-from p2sf.image import Forming, form, form_image
+from p2sf.image import form
+from p2sf.image.form import Forming, form_image
 from p2sf.image.preview import BY_RAYS, preview_plan
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.seidel import coefficients
-from p2sf.scene import Scene, Sensor
+from p2sf.scene.scene import Scene
+from p2sf.scene.sensor import Sensor
 from tests.image.test_layers import BLUR, GREEN, planned
 
 NODES = (1 / 8000.0, 1 / 4000.0)

@@ -6,14 +6,15 @@ import numpy as np
 import pytest
 from scipy.ndimage import gaussian_filter
 
-from p2sf.image import Forming, form_image
+from p2sf.image.form import Forming, form_image
 from p2sf.image.layers import map_depths
 from p2sf.image.lowrank import _spline
 from p2sf.image.preview import BY_RAYS, preview_plan
 from p2sf.lensfile.library import find_lens
 from p2sf.pixel_kernels.nodes import hats
-from p2sf.scene import Channel, Scene, Sensor
 from p2sf.scene.planning.verify import planned_kernel
+from p2sf.scene.scene import Channel, Scene
+from p2sf.scene.sensor import Sensor
 from tests.support.tiers import in_tiers
 from tests.support.visibility import seen_through_pupil
 

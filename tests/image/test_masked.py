@@ -14,17 +14,19 @@ from p2sf.image.preview import preview
 from p2sf.lens.lens import with_mask
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.pixel_kernels import SensorMap, sensor_map
 from p2sf.pixel_kernels.frequency_grid import pupil_map
 from p2sf.pixel_kernels.illumination import relative_illumination
 from p2sf.pixel_kernels.pixels import PixelWindow, half_width, pixel_kernel, samples_across
 from p2sf.pixel_kernels.ray_spread import ray_kernel, ray_spread
+from p2sf.pixel_kernels.sensor_points import SensorMap, sensor_map
 from p2sf.psf.huygens import huygens_psf
 from p2sf.pupil.mask import PupilMap, PupilMask
 from p2sf.pupil.mask_cells import wings
 from p2sf.raytrace.pencil import pupil_rays
-from p2sf.scene import Channel, Scene, Sensor, plan
+from p2sf.scene.planning.plan import plan
 from p2sf.scene.planning.reference import exact_pixels
+from p2sf.scene.scene import Channel, Scene
+from p2sf.scene.sensor import Sensor
 from tests.support.tiers import in_tiers
 from tests.support.waves import relative_l2
 

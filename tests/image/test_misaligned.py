@@ -6,7 +6,7 @@ from math import inf
 import numpy as np
 import pytest
 
-from p2sf.image import Forming, form_image
+from p2sf.image.form import Forming, form_image
 from p2sf.image.geometry import illumination
 from p2sf.lens.lens import with_f_number
 from p2sf.lens.misalignment import displaced

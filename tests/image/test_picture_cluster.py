@@ -9,11 +9,14 @@ import pytest
 
 import p2sf
 from p2sf.errors import Cancelled, ClusterError
-from p2sf.image import Forming, Progress, form_image
 from p2sf.image import form as forming
 from p2sf.image.charts import draw_chart
+from p2sf.image.form import Forming, form_image
+from p2sf.image.progress import Progress
 from p2sf.lensfile.library import find_lens
-from p2sf.scene import Channel, Scene, Sensor, plan
+from p2sf.scene.planning.plan import plan
+from p2sf.scene.scene import Channel, Scene
+from p2sf.scene.sensor import Sensor
 from tests.support.cluster import running_cluster
 
 distributed = pytest.importorskip("distributed")

@@ -7,7 +7,8 @@ from p2sf.image.preview import preview_plan
 from p2sf.image.pupil_moments import MOMENTS, Passing, kernel_moments, powers, pupil_landings, zernike
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.seidel import coefficients
-from p2sf.scene import Channel, Scene, Sensor
+from p2sf.scene.scene import Channel, Scene
+from p2sf.scene.sensor import Sensor
 
 HERE = np.s_[:, :]
 GREEN = (Channel("green", (540.0,), (1.0,)),)

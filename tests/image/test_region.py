@@ -7,10 +7,12 @@ import pytest
 
 import p2sf
 from p2sf.errors import RequestError
-from p2sf.image import form_image
+from p2sf.image.form import form_image
 from p2sf.image.region import Region, tiles
 from p2sf.lensfile.library import find_lens
-from p2sf.scene import Channel, Scene, Sensor, plan
+from p2sf.scene.planning.plan import plan
+from p2sf.scene.scene import Channel, Scene
+from p2sf.scene.sensor import Sensor
 from tests.support.kernel_counts import counted_kernels
 
 GREEN = (Channel("green", (540.0,), (1.0,)),)

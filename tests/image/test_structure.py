@@ -4,11 +4,14 @@ import numpy as np
 import pytest
 from scipy.ndimage import convolve, gaussian_filter, maximum_filter, minimum_filter
 
-from p2sf.image import Forming, form, form_image
+from p2sf.image import form
+from p2sf.image.form import Forming, form_image
 from p2sf.image.region import Region, whole
 from p2sf.image.structure import centroid_px, change_of_shade, structured_parts
 from p2sf.lensfile.library import find_lens
-from p2sf.scene import Channel, Scene, Sensor, plan
+from p2sf.scene.planning.plan import plan
+from p2sf.scene.scene import Channel, Scene
+from p2sf.scene.sensor import Sensor
 from tests.benchmarks.content import CASES, run
 from tests.support.per_pixel import per_pixel_picture
 

@@ -138,7 +138,11 @@ def test_a_psf_looked_up_says_in_what(tmp_path):
 
 
 def test_other_programs_get_the_record_of_a_database(tmp_path):
-    from p2sf.export import open_cube, write_csv, write_fits, write_iset, write_tiff
+    from p2sf.export.coefficient_table import write_csv
+    from p2sf.export.fits import write_fits
+    from p2sf.export.iset import write_iset
+    from p2sf.export.psf_cube import open_cube
+    from p2sf.export.tiff import write_tiff
 
     camera = p2sf.Camera("tessar", focus_mm=1500, f_number=6.7, obscuration=0.25)
     made = camera.database("seidel", depths_mm=[1000, np.inf], fields_deg=[0, 4], wavelengths_nm=[500, 600])

@@ -9,8 +9,9 @@ from mpmath import mp, mpf, taylor
 from scipy.special import eval_jacobi
 
 from p2sf.errors import GeometryError
-from p2sf.lens import Aperture, Diffraction, Lens, Qbfs, Qcon, RadialPolynomial, Surface
 from p2sf.lens.even_terms import even_asphere
+from p2sf.lens.lens import Aperture, Lens, Surface
+from p2sf.lens.shapes import Diffraction, Qbfs, Qcon, RadialPolynomial
 
 SHAPES = {
     "odd": RadialPolynomial((1e-3, -2e-4, 3e-5, 0.0, 1e-6)),

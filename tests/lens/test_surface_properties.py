@@ -8,27 +8,19 @@ import pytest
 
 from p2sf.errors import GeometryError, LensFileError
 from p2sf.glass.media import AIR, ConstantIndex
-from p2sf.lens import (
-    Aperture,
-    Biconic,
-    Diffraction,
-    Grating,
-    Irregularity,
-    Lens,
-    Placement,
-    Rim,
-    Surface,
-    Toroid,
-    Transmission,
-    XYPolynomial,
-    ZernikeFringeSag,
-)
-from p2sf.lens.lens import indices, scale_surface, seen_from
+from p2sf.lens.anamorphic import Biconic, Toroid
+from p2sf.lens.freeform import XYPolynomial, ZernikeFringeSag
+from p2sf.lens.grating import Grating
+from p2sf.lens.irregularity import Irregularity
+from p2sf.lens.lens import Aperture, Lens, Surface, indices, scale_surface, seen_from
 from p2sf.lens.misalignment import average_azimuths, straighten
+from p2sf.lens.placement import Placement
 from p2sf.lens.positions import Axis, interpolate_lens, steps_between, with_positions
 from p2sf.lens.properties import BY_NAME, CODE_V, EVERY, ISET, PROPERTIES, TOML, ZEMAX, words_of
+from p2sf.lens.rim import Rim
 from p2sf.lens.shape_types import SHAPES
-from p2sf.lens.shapes import Shape
+from p2sf.lens.shapes import Diffraction, Shape
+from p2sf.lens.transmission import Transmission
 from p2sf.lensfile.formats.codev_writing import lens_to_seq
 from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.importing import import_text

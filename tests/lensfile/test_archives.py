@@ -6,8 +6,8 @@ import zipfile
 import pytest
 
 from p2sf.errors import LensFileError
-from p2sf.lensfile import load_lens
 from p2sf.lensfile.archives import decompress_lzw, unpack
+from p2sf.lensfile.library import load_lens
 from tests.support.lenses.lens_files import FOLDER, read_file, text_of
 
 GLASS = "NM OWNGLASS 2 0 1.56261 50\nCD 1.4 0.01 0 0 0 0\nLD 0.35 2.0\n"

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from p2sf.errors import LensFileError
-from p2sf.lens import RadialPolynomial
-from p2sf.lensfile import load_lens
+from p2sf.lens.shapes import RadialPolynomial
+from p2sf.lensfile.library import load_lens
 from p2sf.paraxial.first_order import cardinal_points, image_distance
 from p2sf.paraxial.pupils import paraxial_rays, working_f_number
 from tests.support.lenses.lens_files import FOLDER, read, read_file, refused_at

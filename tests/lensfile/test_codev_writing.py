@@ -7,14 +7,15 @@ import pytest
 
 from p2sf.errors import LensFileError
 from p2sf.glass.media import catalogue_glass, model_glass
-from p2sf.lens import Placement, Qbfs, RadialPolynomial, Source, Surface
-from p2sf.lens.lens import indices, with_aim
+from p2sf.lens.lens import Surface, indices, with_aim
 from p2sf.lens.misalignment import displaced, folding
+from p2sf.lens.placement import Placement
 from p2sf.lens.positions import without_positions
 from p2sf.lens.rim import Rim
-from p2sf.lensfile import load_lens
+from p2sf.lens.shapes import Qbfs, RadialPolynomial
+from p2sf.lens.source import Source
 from p2sf.lensfile.formats.codev_writing import lens_to_seq
-from p2sf.lensfile.library import find_lens, shipped_lenses
+from p2sf.lensfile.library import find_lens, load_lens, shipped_lenses
 from p2sf.lensfile.writing import write_lens
 from p2sf.paraxial.first_order import abcd
 from p2sf.paraxial.pupils import find_stop, stop_rim

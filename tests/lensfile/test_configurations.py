@@ -8,9 +8,9 @@ import pytest
 from p2sf.errors import LensFileError
 from p2sf.lens.lens import Lens
 from p2sf.lens.positions import with_positions
-from p2sf.lensfile import load_lens
 from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.importing import Import, import_text
+from p2sf.lensfile.library import load_lens
 from p2sf.lensfile.source_text import LensText
 from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
 from p2sf.lensfile.writing import write_lens

@@ -8,7 +8,7 @@ import pytest
 from p2sf import Source
 from p2sf.errors import GeometryError, LensFileError
 from p2sf.lens.lens import Lens, with_aim
-from p2sf.lensfile import load_lens
+from p2sf.lensfile.library import load_lens
 from p2sf.lensfile.real_heights import landing
 from p2sf.lensfile.writing import write_lens
 from p2sf.tolerance.differentials import usual_sources

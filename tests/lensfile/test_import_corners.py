@@ -8,11 +8,10 @@ import pytest
 
 from p2sf.errors import LensFileError
 from p2sf.glass.media import ConstantIndex
-from p2sf.lens import Diffraction, Qbfs, RadialPolynomial
-from p2sf.lensfile import load_lens
+from p2sf.lens.shapes import Diffraction, Qbfs, RadialPolynomial
 from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.importing import import_text
-from p2sf.lensfile.library import find_lens
+from p2sf.lensfile.library import find_lens, load_lens
 from p2sf.lensfile.source_text import LensText
 from p2sf.lensfile.toml.lens import parse_toml
 from p2sf.lensfile.writing import lens_to_zmx, write_lens

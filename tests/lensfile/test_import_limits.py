@@ -5,7 +5,7 @@ import zipfile
 import pytest
 
 from p2sf.errors import LensFileError
-from p2sf.lensfile import load_lens
+from p2sf.lensfile.library import load_lens
 from tests.support.lenses.lens_files import read, text_of
 
 DOUBLET = "doublet.zmx"

@@ -4,7 +4,7 @@ import json
 import shutil
 
 from p2sf.cli import main
-from p2sf.lensfile import load_lens
+from p2sf.lensfile.library import load_lens
 from p2sf.lensfile.report import ImportReport, Note, Notebook
 from p2sf.messages import Message, Style
 from tests.support.lenses.lens_files import FOLDER, text_of

@@ -5,7 +5,7 @@ from math import inf
 import pytest
 
 from p2sf.errors import LensFileError
-from p2sf.lensfile import load_lens
+from p2sf.lensfile.library import load_lens
 from p2sf.paraxial.first_order import cardinal_points
 from tests.support.lenses.lens_files import FOLDER, read, refused_at
 

@@ -10,12 +10,11 @@ from hypothesis import strategies as st
 
 from p2sf.errors import LensFileError
 from p2sf.glass.media import ConstantIndex, TabulatedIndex, catalogue_glass, model_glass
-from p2sf.lens import Diffraction, Qcon, RadialPolynomial
 from p2sf.lens.lens import Aperture, Lens, Surface, with_mask
 from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement
-from p2sf.lensfile import load_lens
-from p2sf.lensfile.library import find_lens, shipped_lenses
+from p2sf.lens.shapes import Diffraction, Qcon, RadialPolynomial
+from p2sf.lensfile.library import find_lens, load_lens, shipped_lenses
 from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml, read_toml, write_toml
 from p2sf.lensfile.writing import write_lens
 from p2sf.paraxial.first_order import cardinal_points

@@ -5,7 +5,7 @@ import pytest
 
 from p2sf.errors import LensFileError
 from p2sf.lens.lens import indices
-from p2sf.lensfile import load_lens
+from p2sf.lensfile.library import load_lens
 from p2sf.paraxial.first_order import cardinal_points, image_distance
 from tests.support.lenses.lens_files import FOLDER, read, refused_at
 from tests.support.rays.paraxial_by_hand import first_order

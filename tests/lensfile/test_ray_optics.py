@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 
 from p2sf.errors import LensFileError
-from p2sf.lens import Placement, Toroid
+from p2sf.lens.anamorphic import Toroid
 from p2sf.lens.lens import indices
-from p2sf.lensfile import load_lens
+from p2sf.lens.placement import Placement
 from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.importing import import_text
+from p2sf.lensfile.library import load_lens
 from p2sf.lensfile.source_text import LensText
 from p2sf.paraxial.first_order import cardinal_points, image_distance
 from tests.support.lenses.lens_files import FOLDER, text_of

@@ -10,10 +10,10 @@ import pytest
 from p2sf.cli import main
 from p2sf.errors import LensFileError
 from p2sf.lens.source import Source
-from p2sf.lensfile import load_lens
 from p2sf.lensfile.archives import unpack
 from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.importing import Import, import_lens, import_text
+from p2sf.lensfile.library import load_lens
 from p2sf.lensfile.source_text import LensText
 from p2sf.paraxial.first_order import abcd, cardinal_points
 from p2sf.pixel_kernels.sensor_points import landing_mm

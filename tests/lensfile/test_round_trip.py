@@ -7,14 +7,13 @@ import pytest
 
 from p2sf.errors import LensFileError
 from p2sf.glass.media import ConstantIndex, ModelGlass, TabulatedIndex, catalogue_glass
-from p2sf.lens import RadialPolynomial, Source
 from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.lens.placement import Placement
 from p2sf.lens.rim import Rim
-from p2sf.lens.shapes import Diffraction
-from p2sf.lensfile import load_lens
+from p2sf.lens.shapes import Diffraction, RadialPolynomial
+from p2sf.lens.source import Source
 from p2sf.lensfile.agf import read_agf
-from p2sf.lensfile.library import find_lens, shipped_lenses
+from p2sf.lensfile.library import find_lens, load_lens, shipped_lenses
 from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
 from p2sf.lensfile.writing import lens_to_iset, write_lens
 from p2sf.paraxial.first_order import abcd

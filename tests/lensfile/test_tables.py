@@ -5,8 +5,8 @@ from math import inf
 import pytest
 
 from p2sf.errors import LensFileError
-from p2sf.lens import RadialPolynomial
-from p2sf.lensfile import load_lens
+from p2sf.lens.shapes import RadialPolynomial
+from p2sf.lensfile.library import load_lens
 from tests.support.lenses.lens_files import FOLDER, read, refused_at, text_of
 
 BENCH, TABLE = "bench.txt", "singlet.csv"

@@ -9,9 +9,9 @@ import pytest
 from p2sf.colour.colorimetry import bands, matching
 from p2sf.colour.spectrum import spectrum_of
 from p2sf.errors import LensFileError
-from p2sf.lens import Diffraction, Qbfs, Qcon, RadialPolynomial
 from p2sf.lens.lens import with_sensor
-from p2sf.lensfile import load_lens
+from p2sf.lens.shapes import Diffraction, Qbfs, Qcon, RadialPolynomial
+from p2sf.lensfile.library import load_lens
 from p2sf.paraxial.first_order import cardinal_points
 from p2sf.paraxial.pupils import (
     field_from_image_height,

@@ -26,12 +26,14 @@ from statistics import median
 import numpy as np
 
 from p2sf.conventions import slope_from_degrees
-from p2sf.database import Space, build_database, depth_nodes
+from p2sf.database.build import build_database
 from p2sf.database.files.stack import open_stack
 from p2sf.database.files.stack_write import StackProgress, StackStatus, write_stack
 from p2sf.database.render import Sampling
+from p2sf.database.space import Space
 from p2sf.errors import DatabaseError
 from p2sf.lensfile.library import find_lens
+from p2sf.spans import depth_nodes
 from tests.support.cluster import RunningCluster, running_cluster
 
 SAMPLING = Sampling(64, 1.0)

@@ -27,7 +27,7 @@ import numpy as np
 
 import p2sf
 from p2sf.errors import P2SFError, P2SFWarning
-from p2sf.lens import XYPolynomial, ZernikeFringeSag
+from p2sf.lens.freeform import XYPolynomial, ZernikeFringeSag
 from p2sf.lens.irregularity import Irregularity
 from p2sf.lens.lens import Lens, with_aim, with_mask
 from p2sf.lens.misalignment import with_tilted_sensor

@@ -21,8 +21,9 @@ from pathlib import Path
 
 import numpy as np
 
-from p2sf.database import Space, build_database
-from p2sf.database.files import load_database, save_database
+from p2sf.database.build import build_database
+from p2sf.database.files.npz import load_database, save_database
+from p2sf.database.space import Space
 from p2sf.errors import P2SFError
 from p2sf.io.photo_files import read_photo, write_photo
 from p2sf.io.psf_files import read_psf, write_psf

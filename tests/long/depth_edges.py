@@ -17,10 +17,12 @@ import numpy as np
 from scipy.ndimage import gaussian_filter, maximum_filter
 
 from p2sf.conventions import vergence
-from p2sf.image import Forming, form_image
+from p2sf.image.form import Forming, form_image
 from p2sf.image.preview import BY_RAYS, preview_plan
 from p2sf.lensfile.library import find_lens
-from p2sf.scene import Channel, Plan, Scene, Sensor
+from p2sf.scene.planning.plan import Plan
+from p2sf.scene.scene import Channel, Scene
+from p2sf.scene.sensor import Sensor
 from tests.support.visibility import seen_through_layers, seen_through_pupil
 
 SIDE, MARGIN, BAND = 61, 14, 9

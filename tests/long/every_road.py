@@ -38,8 +38,11 @@ from p2sf.psf.methods import whole_pixel_um
 from p2sf.raytrace.field_geometry import cone
 from p2sf.raytrace.spot import spot
 from p2sf.setting import set_up_source
-from p2sf.tolerance import Tolerance, differentials, harms, sensitivities, usual_sources, usual_tolerances
+from p2sf.tolerance.criteria import harms
+from p2sf.tolerance.differentials import differentials, usual_sources
+from p2sf.tolerance.errors_of_build import Tolerance, usual_tolerances
 from p2sf.tolerance.files import back_focus, with_compensators
+from p2sf.tolerance.single import sensitivities
 from tests.support.depths import NEAR_MM, RELAYS_MM, WIDEST_DEG
 from tests.support.lenses.rewritten import WAYS, Written
 from tests.support.pupil_sums import LostRays

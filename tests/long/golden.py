@@ -226,8 +226,8 @@ def _misaligned(name: str, lens: Any) -> Iterator[State]:
 
 def _built(lens: Any) -> dict[str, Any]:
     """Return a lens with its first element decentred, its last tilted, and its sensor tilted."""
-    from p2sf.lens import Placement
     from p2sf.lens.misalignment import displaced, with_tilted_sensor
+    from p2sf.lens.placement import Placement
 
     last = len(lens.surfaces)
     return {
@@ -242,7 +242,8 @@ def _freeform(name: str, lens: Any) -> Iterator[State]:
     from dataclasses import replace
 
     import p2sf
-    from p2sf.lens import Transmission, XYPolynomial, ZernikeFringeSag
+    from p2sf.lens.freeform import XYPolynomial, ZernikeFringeSag
+    from p2sf.lens.transmission import Transmission
 
     radius = lens.surfaces[0].semi_diameter or 10.0
     parts: dict[str, dict[str, Any]] = {

@@ -16,9 +16,9 @@ from time import process_time
 import numpy as np
 
 import p2sf
-from p2sf.image import Forming, form_image
 from p2sf.image.charts import draw_chart
 from p2sf.image.deblur import psnr
+from p2sf.image.form import Forming, form_image
 from p2sf.io.photo_files import write_photo
 from p2sf.lens.lens import with_f_number, with_mask, with_sensor
 from p2sf.lensfile.library import find_lens
@@ -36,7 +36,9 @@ from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.quadrature import disc_nodes
 from p2sf.pupil.transform import sum_plane_waves
-from p2sf.scene import Channel, Scene, Sensor, plan
+from p2sf.scene.planning.plan import plan
+from p2sf.scene.scene import Channel, Scene
+from p2sf.scene.sensor import Sensor
 from p2sf.studies import validate
 from p2sf.tolerance.errors_of_build import Tolerance, build
 from p2sf_explorer.compute.live import live

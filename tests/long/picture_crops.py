@@ -18,7 +18,7 @@ from pathlib import Path
 
 import numpy as np
 
-from p2sf.image import form_image
+from p2sf.image.form import form_image
 from tests.benchmarks.image_simulation import BLUR, CAMERAS, for_reference, picture_of
 from tests.support.depth_scenes import SCENES
 from tests.support.per_pixel import Region, per_pixel_picture, widest_half

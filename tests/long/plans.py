@@ -33,24 +33,25 @@ import numpy as np
 
 from p2sf.conventions import depth_of
 from p2sf.errors import GeometryError, P2SFError
-from p2sf.image import form_image, plan_lattice
+from p2sf.image.form import form_image, plan_lattice
 from p2sf.lens.lens import lens_range_um, with_f_number
 from p2sf.lensfile.library import find_lens, shipped_lenses
 from p2sf.paraxial.pupils import f_number, numerical_aperture
 from p2sf.paraxial.seidel import coefficients, reason_against_coefficients
-from p2sf.pixel_kernels import Colour, Kernels, Recipe
+from p2sf.pixel_kernels.channel import Colour, Kernels, Recipe
 from p2sf.pixel_kernels.nodes import nodes_along
 from p2sf.psf.sums.plane_waves import counts_for, window_reach_um
 from p2sf.pupil.quadrature import disc_nodes
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import steepness
-from p2sf.scene import Channel, Plan, Scene, Sensor, plan, verify
 from p2sf.scene.planning import lens_pupils
-from p2sf.scene.planning.plan import SHARES
+from p2sf.scene.planning.plan import SHARES, Plan, plan
 from p2sf.scene.planning.pricing import naive_recipe
 from p2sf.scene.planning.reference import LEAST_POINTS, PROBE
 from p2sf.scene.planning.study import distance
-from p2sf.scene.planning.verify import error_at, planned_kernel
+from p2sf.scene.planning.verify import error_at, planned_kernel, verify
+from p2sf.scene.scene import Channel, Scene
+from p2sf.scene.sensor import Sensor
 
 SCENES, POINTS, SAMPLE = 20, 1, 8
 HARDEST, TRIED_DEPTHS = 1, 7

@@ -20,8 +20,8 @@ import numpy as np
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GeometryError, LensFileError
-from p2sf.lens import Source
 from p2sf.lens.lens import Lens
+from p2sf.lens.source import Source
 from p2sf.lensfile.formats.codev_writing import lens_to_seq
 from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.importing import import_lens, import_text

@@ -12,9 +12,9 @@ from dataclasses import replace
 import numpy as np
 
 from p2sf.camera import Camera
-from p2sf.image import Forming, form_image, plan_lattice
 from p2sf.image.charts import draw_chart
 from p2sf.image.deblur import photo_statistics, psnr, wiener
+from p2sf.image.form import Forming, form_image, plan_lattice
 from p2sf.image.lattice import Lattice
 
 SIDE, BY_CHANCE = 160, 0.05

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from p2sf.database.files import load_database
+from p2sf.database.files.npz import load_database
 from p2sf.errors import Cancelled, P2SFError, RequestError
 from p2sf.files.writing import write_beside
 from p2sf.io.photo_files import write_photo

@@ -5,7 +5,7 @@ from math import inf
 import numpy as np
 import pytest
 
-from p2sf.lens import Aperture, Lens, Surface
+from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.paraxial.depth_of_field import AxialBlur
 from p2sf.paraxial.pupils import find_stop
 

@@ -5,17 +5,21 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from p2sf.database import Space, build_database, depth_nodes
+from p2sf.database.build import build_database
 from p2sf.database.departure import departures, largest
 from p2sf.database.parts import KINDS
+from p2sf.database.space import Space
 from p2sf.errors import GeometryError
 from p2sf.glass.media import catalogue_glass, model_glass
-from p2sf.lens import Aperture, Diffraction, Lens, Qbfs, RadialPolynomial, Source, Surface, indices
+from p2sf.lens.lens import Aperture, Lens, Surface, indices
+from p2sf.lens.shapes import Diffraction, Qbfs, RadialPolynomial
+from p2sf.lens.source import Source
 from p2sf.paraxial.bending import thin_power
 from p2sf.paraxial.first_order import cardinal_points, image_distance
 from p2sf.paraxial.pupils import find_stop, numerical_aperture, paraxial_rays
 from p2sf.paraxial.seidel import chromatic_sums, coefficients, seidel_sums
 from p2sf.raytrace.pencil import pencil
+from p2sf.spans import depth_nodes
 from tests.benchmarks.interpolants import points_in
 from tests.support.lenses.shaped_lenses import PARTS, PHASE, UNSEEN_BY_SEIDEL, hybrid, singlet, two_shaped_mirrors
 

@@ -7,8 +7,8 @@ import pytest
 
 from p2sf.cli import main
 from p2sf.glass.media import ConstantIndex
-from p2sf.lens import Diffraction, Qbfs, Qcon, RadialPolynomial
 from p2sf.lens.lens import Aperture, Lens, Surface
+from p2sf.lens.shapes import Diffraction, Qbfs, Qcon, RadialPolynomial
 from p2sf.lensfile.library import find_lens, shipped_lenses
 from p2sf.paraxial.lens_checks import edge, lens_checks
 from tests.support.lenses.mirrors import classical, mangin, telescope, two_mirrors

@@ -7,12 +7,12 @@ from p2sf.errors import GeometryError
 from p2sf.lens.lens import with_aim
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.pixel_kernels import Recipe, sensor_map
-from p2sf.pixel_kernels.channel import own_light
+from p2sf.pixel_kernels.channel import Recipe, own_light
 from p2sf.pixel_kernels.frequency_grid import fitted_forms, pupil_map, pupils_of
 from p2sf.pixel_kernels.pixels import PixelWindow, half_width, pixel_kernel, samples_across
 from p2sf.pixel_kernels.pupil_stack import cutting_rims, stack_pupils
 from p2sf.pixel_kernels.pupil_table import chebyshev, pupil_table
+from p2sf.pixel_kernels.sensor_points import sensor_map
 from p2sf.raytrace.fit import levels
 from p2sf.scene.planning.reference import exact_pixels
 from tests.support.tiers import in_tiers

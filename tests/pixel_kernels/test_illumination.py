@@ -12,9 +12,8 @@ from p2sf.lens.lens import Lens, with_aim
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.pupils import find_stop, pupils
-from p2sf.pixel_kernels import sensor_map
 from p2sf.pixel_kernels.illumination import light_collected, relative_illumination
-from p2sf.pixel_kernels.sensor_points import chief_heights
+from p2sf.pixel_kernels.sensor_points import chief_heights, sensor_map
 from p2sf.raytrace.trace import trace
 from tests.long.aiming import symmetric_lens
 

@@ -9,8 +9,7 @@ from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.pixel_kernels import Colour, Kernels, Recipe, sensor_map
-from p2sf.pixel_kernels.channel import own_light, wave_kernels
+from p2sf.pixel_kernels.channel import Colour, Kernels, Recipe, own_light, wave_kernels
 from p2sf.pixel_kernels.frequency_grid import pupil_map
 from p2sf.pixel_kernels.pixels import (
     PixelWindow,
@@ -23,6 +22,7 @@ from p2sf.pixel_kernels.pixels import (
 )
 from p2sf.pixel_kernels.pupil_stack import stack_pupils
 from p2sf.pixel_kernels.pupil_table import chebyshev, lagrange, pupil_table
+from p2sf.pixel_kernels.sensor_points import sensor_map
 from p2sf.psf.huygens import huygens_psf
 from p2sf.pupil.binning import bin_samples
 from p2sf.pupil.mask import PupilMask

@@ -6,20 +6,22 @@ import numpy as np
 import pytest
 
 from p2sf.errors import GeometryError
-from p2sf.image import Forming, form_image
+from p2sf.image.form import Forming, form_image
 from p2sf.image.preview import BY_RAYS, preview_plan
 from p2sf.lens.lens import Lens, with_aim
 from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.pixel_kernels import RAYS, Colour, Kernels, Recipe, sensor_map
+from p2sf.pixel_kernels.channel import RAYS, Colour, Kernels, Recipe
 from p2sf.pixel_kernels.frequency_grid import pupil_map
 from p2sf.pixel_kernels.pixels import PixelWindow, pixel_kernel, samples_across
 from p2sf.pixel_kernels.ray_spread import RaySpread, ray_kernel, ray_spread
+from p2sf.pixel_kernels.sensor_points import sensor_map
 from p2sf.pupil.quadrature import disc_nodes
 from p2sf.raytrace.pencil import pencil, to_the_rim
-from p2sf.scene import Channel, Scene, Sensor
+from p2sf.scene.scene import Channel, Scene
+from p2sf.scene.sensor import Sensor
 from tests.support.pupil_sums import phase_and_frequency
 from tests.support.rays.skew_rays import system_of, through_stop
 

@@ -9,8 +9,7 @@ from scipy.special import j1
 import p2sf
 from p2sf.conventions import centred_axis
 from p2sf.errors import RequestError
-from p2sf.lens import Aperture, Lens, Surface
-from p2sf.lens.lens import with_mask
+from p2sf.lens.lens import Aperture, Lens, Surface, with_mask
 from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source

@@ -13,10 +13,10 @@ from p2sf.colour.spectrum import spectrum_of
 from p2sf.errors import GeometryError, GlassError
 from p2sf.glass.media import ConstantIndex, ShiftedIndex
 from p2sf.glass.transmittance import InternalTransmittance
-from p2sf.lens import Aperture, Lens, Source, Surface
-from p2sf.lens.lens import with_absorption
+from p2sf.lens.lens import Aperture, Lens, Surface, with_absorption
 from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement
+from p2sf.lens.source import Source
 from p2sf.lensfile.agf import FormulaGlass, read_agf_text
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.source_text import LensText

@@ -10,9 +10,11 @@ from mpmath import mp, mpf
 import p2sf
 from p2sf.errors import GeometryError
 from p2sf.glass.media import MIRROR, ConstantIndex
-from p2sf.lens import Aperture, Biconic, Grating, Lens, Source, Surface, Toroid
-from p2sf.lens.lens import with_sensor
+from p2sf.lens.anamorphic import Biconic, Toroid
+from p2sf.lens.grating import Grating
+from p2sf.lens.lens import Aperture, Lens, Surface, with_sensor
 from p2sf.lens.misalignment import average_azimuths
+from p2sf.lens.source import Source
 from p2sf.paraxial.first_order import abcd
 from p2sf.raytrace.surface import Status
 from p2sf.raytrace.trace import trace

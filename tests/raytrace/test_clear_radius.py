@@ -5,7 +5,7 @@ from math import inf
 import numpy as np
 import pytest
 
-from p2sf.lens import Aperture, Lens, Surface
+from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.lens.rim import Rim
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens

@@ -18,9 +18,10 @@ from p2sf.raytrace.field_curves import heights, real_foci
 from p2sf.raytrace.pencil import displayed_opd, hexapolar, pencil
 from p2sf.raytrace.trace import trace
 from p2sf.raytrace.zernike_fit import zernike_fit
-from p2sf.tolerance import Tolerance, differentials, harms, sensitivities, usual_sources
-from p2sf.tolerance.differentials import with_moved_sensor
-from p2sf.tolerance.errors_of_build import build
+from p2sf.tolerance.criteria import harms
+from p2sf.tolerance.differentials import differentials, usual_sources, with_moved_sensor
+from p2sf.tolerance.errors_of_build import Tolerance, build
+from p2sf.tolerance.single import sensitivities
 
 RADIUS, CONIC = -40.0, -0.7
 FIELD = Source(field_slope=float(np.tan(np.deg2rad(14))), wavelength_um=0.55)

@@ -9,17 +9,10 @@ from mpmath import mpf
 import p2sf
 from p2sf.errors import GeometryError, LensFileError
 from p2sf.glass.media import MIRROR, ConstantIndex
-from p2sf.lens import (
-    Aperture,
-    Lens,
-    Placement,
-    Source,
-    Surface,
-    XYPolynomial,
-    ZernikeFringeSag,
-    ZernikeStandardSag,
-)
-from p2sf.lens.lens import with_sensor
+from p2sf.lens.freeform import XYPolynomial, ZernikeFringeSag, ZernikeStandardSag
+from p2sf.lens.lens import Aperture, Lens, Surface, with_sensor
+from p2sf.lens.placement import Placement
+from p2sf.lens.source import Source
 from p2sf.lensfile.formats.codev_writing import lens_to_seq
 from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.importing import import_text

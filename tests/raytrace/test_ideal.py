@@ -8,9 +8,10 @@ import pytest
 
 from p2sf.errors import GeometryError, LensFileError
 from p2sf.glass.media import MIRROR, ConstantIndex
-from p2sf.lens import Aperture, Lens, Placement, Source, Surface
-from p2sf.lens.lens import with_aim, with_sensor
+from p2sf.lens.lens import Aperture, Lens, Surface, with_aim, with_sensor
 from p2sf.lens.misalignment import displaced
+from p2sf.lens.placement import Placement
+from p2sf.lens.source import Source
 from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.importing import import_text
 from p2sf.lensfile.source_text import LensText

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from p2sf.errors import GeometryError, LensFileError
-from p2sf.lens import Aperture, Lens, Source, Surface
-from p2sf.lens.lens import seen_from
+from p2sf.lens.lens import Aperture, Lens, Surface, seen_from
 from p2sf.lens.rim import Rim
+from p2sf.lens.source import Source
 from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.importing import import_text
 from p2sf.lensfile.source_text import LensText

@@ -12,8 +12,9 @@ import pytest
 from mpmath import mp, mpf, taylor
 
 from p2sf.glass.media import MIRROR, ConstantIndex
-from p2sf.lens import Aperture, Diffraction, Lens, Qbfs, Qcon, RadialPolynomial, Source, Surface
-from p2sf.lens.lens import with_aim, with_sensor
+from p2sf.lens.lens import Aperture, Lens, Surface, with_aim, with_sensor
+from p2sf.lens.shapes import Diffraction, Qbfs, Qcon, RadialPolynomial
+from p2sf.lens.source import Source
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.seidel import coefficients
 from p2sf.paraxial.wavefront import wavefront

@@ -9,9 +9,11 @@ from scipy.special import j0
 import p2sf
 from p2sf.errors import GeometryError
 from p2sf.glass.media import ConstantIndex
-from p2sf.lens import Aperture, Lens, Source, Surface, Transmission
+from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement
+from p2sf.lens.source import Source
+from p2sf.lens.transmission import Transmission
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.seidel import coefficients
 from p2sf.pixel_kernels.illumination import light_collected

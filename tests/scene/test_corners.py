@@ -12,7 +12,9 @@ from p2sf.errors import RequestError
 from p2sf.io.photo_files import read_photo, write_photo
 from p2sf.lens.lens import AIMS, with_aim
 from p2sf.lensfile.library import find_lens
-from p2sf.scene import Channel, Scene, Sensor, read_scene
+from p2sf.scene.files import read_scene
+from p2sf.scene.scene import Channel, Scene
+from p2sf.scene.sensor import Sensor
 from tests.cli.test_scene import SCENE
 
 SIMPLE = Scene(Sensor(40, 60, 60.0))

@@ -21,8 +21,11 @@ from p2sf.pixel_kernels.pupil_stack import stack_pupils
 from p2sf.pixel_kernels.ray_spread import ray_kernel, ray_spread
 from p2sf.raytrace.aiming import pupil_rays
 from p2sf.raytrace.trace import trace
-from p2sf.scene import Channel, Scene, Sensor, plan, verify
+from p2sf.scene.planning.plan import plan
 from p2sf.scene.planning.reference import exact_pixels
+from p2sf.scene.planning.verify import verify
+from p2sf.scene.scene import Channel, Scene
+from p2sf.scene.sensor import Sensor
 
 FIELD = Source(field_deg=20, wavelength_um=0.55)
 RADIUS = -28.0  # mm: 40° steep where 20° land

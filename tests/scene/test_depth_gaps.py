@@ -7,12 +7,15 @@ import pytest
 
 from p2sf.conventions import vergence
 from p2sf.errors import RequestError
-from p2sf.image import Forming, form_image
+from p2sf.image.form import Forming, form_image
 from p2sf.image.layers import map_depths
 from p2sf.image.preview import preview_plan
 from p2sf.lensfile.library import find_lens
-from p2sf.scene import Channel, Scene, Sensor, plan, verify
 from p2sf.scene.depth_gaps import BINS, LEAST_GAP
+from p2sf.scene.planning.plan import plan
+from p2sf.scene.planning.verify import verify
+from p2sf.scene.scene import Channel, Scene
+from p2sf.scene.sensor import Sensor
 
 GREEN = (Channel("green", (540.0,), (1.0,)),)
 RANGE = Scene(Sensor(48, 64, 20.0), GREEN, 4000.0, np.inf, 0.05, focus_mm=8000.0, f_number=4.0)

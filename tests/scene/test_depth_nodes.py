@@ -3,8 +3,10 @@
 import numpy as np
 
 from p2sf.lensfile.library import find_lens
-from p2sf.scene import Channel, Scene, Sensor, plan
+from p2sf.scene.planning.plan import plan
 from p2sf.scene.planning.verify import error_at
+from p2sf.scene.scene import Channel, Scene
+from p2sf.scene.sensor import Sensor
 
 
 def test_depths_are_resolved_where_a_curved_image_is_sharp_between_axis_and_corner():

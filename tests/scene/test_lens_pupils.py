@@ -14,10 +14,12 @@ from p2sf.pixel_kernels.pixels import PixelWindow, pixel_kernels
 from p2sf.pixel_kernels.pupil_stack import with_reach
 from p2sf.pupil.mask import PupilMask
 from p2sf.raytrace.fit import levels_for
-from p2sf.scene import Channel, Scene, Sensor, plan
 from p2sf.scene.planning import lens_pupils as kept
 from p2sf.scene.planning.adaptive_table import kernel_errors
+from p2sf.scene.planning.plan import plan
 from p2sf.scene.planning.study import Study, distance
+from p2sf.scene.scene import Channel, Scene
+from p2sf.scene.sensor import Sensor
 
 GREEN = (Channel("green", (530.0, 560.0), (1.0, 1.0)),)
 SCENE = Scene(Sensor(96, 128, 9.0), GREEN, 15000.0, 25000.0, 0.1, focus_mm=20000.0, f_number=4.0)

@@ -6,7 +6,8 @@ from math import inf
 import numpy as np
 import pytest
 
-from p2sf.image import Forming, form_image, preview
+from p2sf.image.form import Forming, form_image
+from p2sf.image.preview import preview
 from p2sf.lens.freeform import XYPolynomial
 from p2sf.lens.lens import with_f_number, with_mask
 from p2sf.lens.misalignment import displaced
@@ -15,7 +16,10 @@ from p2sf.lens.shapes import RadialPolynomial
 from p2sf.lensfile.library import find_lens
 from p2sf.pixel_kernels.sensor_points import landing_mm
 from p2sf.pupil.mask import CLEAR, PupilMask
-from p2sf.scene import Channel, Scene, Sensor, plan, verify
+from p2sf.scene.planning.plan import plan
+from p2sf.scene.planning.verify import verify
+from p2sf.scene.scene import Channel, Scene
+from p2sf.scene.sensor import Sensor
 from tests.support.exact_lattice import exact_lattice
 
 GREEN = (Channel("green", (520.0, 560.0), (1.0, 1.0)),)

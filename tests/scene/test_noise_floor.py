@@ -7,10 +7,11 @@ import pytest
 from scipy.signal import fftconvolve
 
 from p2sf.errors import RequestError
-from p2sf.image import form_image
+from p2sf.image.form import form_image
 from p2sf.lensfile.library import find_lens
-from p2sf.scene import Channel, Scene, Sensor, plan
-from p2sf.scene.scene import NOISE_PART
+from p2sf.scene.planning.plan import plan
+from p2sf.scene.scene import NOISE_PART, Channel, Scene
+from p2sf.scene.sensor import Sensor
 
 GREEN = (Channel("green", (530.0, 560.0), (1.0, 1.0)),)
 DIM = Sensor(48, 64, 12.0, full_well=200.0, read_noise=3.0, bits=12)

@@ -8,20 +8,22 @@ import numpy as np
 import pytest
 
 from p2sf.errors import GeometryError, GlassError, RequestError, SamplingError
-from p2sf.image import preview
+from p2sf.image.preview import preview
 from p2sf.lens.lens import with_mask
 from p2sf.lensfile.library import find_lens
 from p2sf.messages import Message
 from p2sf.pixel_kernels.pupil_table import chebyshev, lagrange
 from p2sf.pupil.mask import PupilMask
-from p2sf.scene import Channel, Scene, Sensor, plan, read_scene, verify
+from p2sf.scene.files import read_scene
 from p2sf.scene.planning.bounds import check_blur
-from p2sf.scene.planning.plan import _colour_errors
+from p2sf.scene.planning.plan import _colour_errors, plan
 from p2sf.scene.planning.reference import reference_kernel
 from p2sf.scene.planning.sharing import REMAINDER, TARGET_ERROR, fewer_nodes, share_pupils
 from p2sf.scene.planning.study import SAMPLING_ERRORS, SAMPLINGS, Place, Study, distance, first_allowed
 from p2sf.scene.planning.table import plan_rows
-from p2sf.scene.planning.verify import planned_kernel
+from p2sf.scene.planning.verify import planned_kernel, verify
+from p2sf.scene.scene import Channel, Scene
+from p2sf.scene.sensor import Sensor
 from p2sf.scene.spectrum import reduce_spectrum
 from tests.long.plans import random_scene
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from p2sf.image.lattice import Lattice, build_lattice
-from p2sf.scene import Plan
+from p2sf.scene.planning.plan import Plan
 from p2sf.scene.planning.reference import reference_kernel
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from p2sf.conventions import vergence
 from p2sf.image.layers import map_depths
 from p2sf.image.pupil_moments import MOMENTS, Passing, kernel_moments, pupil_landings
-from p2sf.scene import Plan
+from p2sf.scene.planning.plan import Plan
 
 TOGETHER = 400  # pixels whose kernels are computed at once
 

@@ -23,7 +23,7 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.raytrace.spot import spot
 from p2sf.setting import set_up_source
-from p2sf.tolerance import differentials
+from p2sf.tolerance.differentials import differentials
 
 SAME = 5e-6  # relative: half a unit of six digits, which the command line prints
 METHODS = ("seidel", "fitted", "traced", "huygens")

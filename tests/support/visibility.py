@@ -3,7 +3,7 @@
 import numpy as np
 
 from p2sf.pixel_kernels.ray_spread import ray_spread
-from p2sf.scene import Plan
+from p2sf.scene.planning.plan import Plan
 
 EVERY = np.s_[4::8, 6::12]  # of the cells of the pupil: those in the middle of as many
 

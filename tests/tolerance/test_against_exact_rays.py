@@ -5,18 +5,12 @@ import pytest
 
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.tolerance import (
-    GRADES,
-    Tolerance,
-    by_form,
-    differentials,
-    form_errors,
-    harms,
-    sensitivities,
-    usual_sources,
-)
-from p2sf.tolerance.errors_of_build import build
+from p2sf.tolerance.builds import by_form
+from p2sf.tolerance.criteria import harms
+from p2sf.tolerance.differentials import differentials, usual_sources
+from p2sf.tolerance.errors_of_build import GRADES, Tolerance, build
 from p2sf.tolerance.files import back_focus, with_compensators
+from p2sf.tolerance.single import form_errors, sensitivities
 from tests.support.depths import RELAYS_MM
 from tests.support.pupil_sums import LostRays
 from tests.support.rays.perturbed_rays import harm

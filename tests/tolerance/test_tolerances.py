@@ -18,21 +18,11 @@ from p2sf.pupil.quadrature import whole_disc
 from p2sf.raytrace.aiming import pupil_rays
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.trace import trace
-from p2sf.tolerance import (
-    GRADES,
-    Builds,
-    Tolerance,
-    build,
-    differentials,
-    harms,
-    sensitivities,
-    share_within,
-    simulate,
-    usual_tolerances,
-)
-from p2sf.tolerance.builds import evaluate
-from p2sf.tolerance.differentials import NODES, usual_sources
-from p2sf.tolerance.errors_of_build import IRREGULAR
+from p2sf.tolerance.builds import Builds, evaluate, simulate
+from p2sf.tolerance.criteria import harms, share_within
+from p2sf.tolerance.differentials import NODES, differentials, usual_sources
+from p2sf.tolerance.errors_of_build import GRADES, IRREGULAR, Tolerance, build, usual_tolerances
+from p2sf.tolerance.single import sensitivities
 from tests.long.tolerances import agreement, gauss
 from tests.support.lenses.simple_lenses import in_the_stop
 from tests.support.tiers import in_tiers

@@ -1,7 +1,7 @@
 """The film of random builds: the state and the words of each frame. No Qt in here."""
 
 from p2sf.messages import Message, Number
-from p2sf.tolerance import of_worst_field
+from p2sf.tolerance.criteria import of_worst_field
 from p2sf_explorer.compute.views.tolerances import ToleranceQuestion, ToleranceResult, errors_of, figures
 from p2sf_explorer.playback.sweep import Moment
 from p2sf_explorer.state.built import exaggerate

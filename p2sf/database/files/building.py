@@ -10,9 +10,9 @@ from numpy.typing import ArrayLike
 
 from p2sf.arguments import check_arguments, real_array
 from p2sf.conventions import NM_PER_UM, slope_from_degrees
-from p2sf.database import Space
 from p2sf.database.accuracy import build_by, check_kind
 from p2sf.database.files.provenance import Stored, provenance
+from p2sf.database.space import Space
 from p2sf.errors import P2SFWarning
 from p2sf.files.writing import check_ending, check_place
 from p2sf.lens.lens import Lens

@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from p2sf.database import ExactDatabase, GridDatabase, Space
-from p2sf.database.exact import NUMBERS
+from p2sf.database.exact import NUMBERS, ExactDatabase
 from p2sf.database.files.provenance import Stored, provenance
 from p2sf.database.files.sealed import read_sealed, seal, unseal, write_sealed
 from p2sf.database.fitted import FittedDatabase, fields_of
-from p2sf.database.grid import PER_WAVELENGTH, STORED, NodeGrid
+from p2sf.database.grid import PER_WAVELENGTH, STORED, GridDatabase, NodeGrid
 from p2sf.database.render import Database
+from p2sf.database.space import Space
 from p2sf.errors import DatabaseError, RequestError
 from p2sf.files.reading import parse_json
 from p2sf.io.record import MAPS

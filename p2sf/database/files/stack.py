@@ -15,8 +15,9 @@ from typing import Any, Literal
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM, centred_axis, degrees_from_slope
-from p2sf.database.files import Stored, database_from_bytes
+from p2sf.database.files.npz import database_from_bytes
 from p2sf.database.files.place import Place, chunk_names, exists, place_of, send, translate_errors
+from p2sf.database.files.provenance import Stored
 from p2sf.database.render import Sampling, critical_pixel_um, samples_per_pixel
 from p2sf.errors import DatabaseError
 from p2sf.files.writing import plain

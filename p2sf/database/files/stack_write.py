@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from p2sf.database.cost import products
-from p2sf.database.files import database_bytes, same_database
+from p2sf.database.files.npz import database_bytes, same_database
 from p2sf.database.files.place import exists, failures, place_of
 from p2sf.database.files.stack import TEMPORARY, Chunk, Stack, create, open_stack
 from p2sf.database.render import Database, Sampling, critical_pixel_um, fine_sampling, light_of, samples_per_pixel

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from p2sf.pixel_kernels import Colour
+from p2sf.pixel_kernels.channel import Colour
 from p2sf.pixel_kernels.nodes import nodes_along
 from p2sf.scene.field_area import Point
 from p2sf.scene.planning.study import SEEN_AT, Study, distance, weighted_sum

@@ -12,8 +12,9 @@ import numpy as np
 from p2sf.arguments import check_arguments
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
-from p2sf.pixel_kernels import Colour, Kernels, Recipe, SensorMap
+from p2sf.pixel_kernels.channel import Colour, Kernels, Recipe
 from p2sf.pixel_kernels.pupil_table import PupilTable
+from p2sf.pixel_kernels.sensor_points import SensorMap
 from p2sf.raytrace.focusing import object_distance
 from p2sf.scene.field_area import Point
 from p2sf.scene.files import read_scene

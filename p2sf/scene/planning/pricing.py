@@ -7,7 +7,7 @@ import numpy as np
 
 from p2sf.lens.lens import Lens
 from p2sf.paraxial.seidel import reason_against_coefficients
-from p2sf.pixel_kernels import Colour, Recipe
+from p2sf.pixel_kernels.channel import Colour, Recipe
 from p2sf.scene.planning.bounds import transforms
 from p2sf.scene.planning.cost import ALONE_SECONDS, TOGETHER_SECONDS, Work, pupil_seconds
 from p2sf.scene.planning.study import Study

@@ -8,7 +8,7 @@ import numpy as np
 from p2sf.conventions import UM_PER_MM, centred_axis
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.pixel_kernels import SensorMap
+from p2sf.pixel_kernels.sensor_points import SensorMap
 from p2sf.psf.sums.plane_waves import counts_for, pupil_amplitude, window_reach_um
 from p2sf.pupil.quadrature import gauss_legendre
 from p2sf.pupil.transform import sum_plane_waves

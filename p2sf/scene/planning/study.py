@@ -15,12 +15,12 @@ import numpy as np
 from p2sf.conventions import UM_PER_MM
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.pixel_kernels import Colour, SensorMap
-from p2sf.pixel_kernels.channel import PointLights
+from p2sf.pixel_kernels.channel import Colour, PointLights
 from p2sf.pixel_kernels.frequency_grid import fitted_forms, pupils_of
 from p2sf.pixel_kernels.pixels import PixelWindow, half_widths, pixel_kernels, samples_each
 from p2sf.pixel_kernels.pupil_stack import PupilStack, with_reach
 from p2sf.pixel_kernels.pupil_table import PupilTable, chebyshev, lagrange
+from p2sf.pixel_kernels.sensor_points import SensorMap
 from p2sf.pupil.mask_nodes import throughput
 from p2sf.raytrace.fit import Level, PencilForms, levels_for
 from p2sf.scene.field_area import FieldArea, Point, field_area

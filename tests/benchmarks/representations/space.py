@@ -8,7 +8,7 @@ from math import ceil, copysign, inf
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM, slope_from_degrees, vergence
-from p2sf.database import Space, depth_nodes
+from p2sf.database.space import Space
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, check_aligned, with_f_number
 from p2sf.lens.source import Source
@@ -19,6 +19,7 @@ from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.pixel_integrals import ROUNDING, fine_side, light_per_pixel
 from p2sf.raytrace.fit import fit
 from p2sf.raytrace.ray_field import AIRY_RADIUS
+from p2sf.spans import depth_nodes
 
 PIXELS = 64
 DEFOCUS_WAVES = 4.0  # from one end of the depths to the other, at the reference wavelength

@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from p2sf.lens import Aperture, XYPolynomial, ZernikeStandardSag
+from p2sf.lens.freeform import XYPolynomial, ZernikeStandardSag
+from p2sf.lens.lens import Aperture
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.messages import Message

@@ -1,8 +1,7 @@
 import numpy as np
 import pytest
 
-from p2sf.lens import Surface
-from p2sf.lens.lens import AIMS, indices, with_aim
+from p2sf.lens.lens import AIMS, Surface, indices, with_aim
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens, shipped_lenses
 from p2sf.paraxial.pupils import find_stop

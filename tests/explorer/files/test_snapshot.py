@@ -10,8 +10,9 @@ from PIL import Image
 from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent, QImage
 
-from p2sf.database import Space, build_database, depth_nodes
-from p2sf.database.files import save_database
+from p2sf.database.build import build_database
+from p2sf.database.files.npz import save_database
+from p2sf.database.space import Space
 from p2sf.errors import LensFileError
 from p2sf.io.fits_psf import read_psf_fits
 from p2sf.io.png_text import HEADER, with_text
@@ -20,6 +21,7 @@ from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.psf.methods import render
 from p2sf.psf.seidel import seidel_psf
+from p2sf.spans import depth_nodes
 from p2sf_explorer.application.display import NO_DISPLAY, display_problem
 from p2sf_explorer.application.main import starting_state
 from p2sf_explorer.compute.live import live

@@ -13,7 +13,7 @@ import pytest
 from PySide6.QtWidgets import QFileDialog, QMessageBox
 
 from p2sf.errors import ExportError, LensFileError, P2SFError
-from p2sf.image import Progress
+from p2sf.image.progress import Progress
 from p2sf.io.photo_files import read_photo, write_photo
 from p2sf.io.png16 import write_deep
 from p2sf.io.png_text import HEADER, with_text

@@ -4,7 +4,9 @@ import pytest
 
 from p2sf.lensfile.library import find_lens
 from p2sf.messages import Message
-from p2sf.scene import Channel, Scene, Sensor, plan
+from p2sf.scene.planning.plan import plan
+from p2sf.scene.scene import Channel, Scene
+from p2sf.scene.sensor import Sensor
 from p2sf_explorer.compute.views.image import plan_notes
 from p2sf_explorer.i18n.language import set_language
 from p2sf_explorer.i18n.messages import said

@@ -9,15 +9,16 @@ import pytest
 from PySide6.QtCore import QPointF, Qt
 
 from p2sf.errors import Cancelled, GeometryError, RequestError
-from p2sf.image import Progress, form_image
+from p2sf.image.form import form_image
 from p2sf.image.lattice import Lattice
+from p2sf.image.progress import Progress
 from p2sf.image.similarity import ssim
 from p2sf.io.photo_files import read_photo, write_photo
 from p2sf.io.transfer import srgb_from_linear
 from p2sf.lens.lens import lens_range_um
 from p2sf.lensfile.library import find_lens, shipped_lenses
 from p2sf.messages import Message
-from p2sf.pixel_kernels import RAYS, Recipe
+from p2sf.pixel_kernels.channel import RAYS, Recipe
 from p2sf.pixel_kernels.illumination import light_collected
 from p2sf.scene.planning.reference import reference_kernel
 from p2sf_explorer.compute import live as compute

@@ -12,7 +12,7 @@ from PySide6.QtGui import QDragEnterEvent, QDropEvent, QMouseEvent
 from PySide6.QtWidgets import QApplication
 
 from p2sf.errors import Cancelled
-from p2sf.image import Progress
+from p2sf.image.progress import Progress
 from p2sf.io.photo_files import write_photo
 from p2sf.messages import Message, Style
 from p2sf.scene.planning.cost import Cost

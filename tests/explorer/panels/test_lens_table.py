@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QApplication, QFileDialog, QLineEdit
 
 from p2sf.errors import GeometryError, GlassError
 from p2sf.lens.lens import with_sensor
-from p2sf.lensfile import load_lens
+from p2sf.lensfile.library import load_lens
 from p2sf.lensfile.toml.lens import write_toml
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.pupils import f_number

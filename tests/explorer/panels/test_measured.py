@@ -5,9 +5,9 @@ import pytest
 from PIL import Image
 from PySide6.QtCore import Qt
 
-from p2sf.image import Forming, form_image
 from p2sf.image.charts import draw_chart
 from p2sf.image.deblur import psnr
+from p2sf.image.form import Forming, form_image
 from p2sf.io.photo_files import write_photo
 from p2sf.lens.lens import with_f_number, with_sensor
 from p2sf.lensfile.library import find_lens
@@ -15,7 +15,9 @@ from p2sf.lensfile.toml.lens import read_toml
 from p2sf.measure.frame import FrameGeometry
 from p2sf.measure.measurement import read_measurement
 from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
-from p2sf.scene import Channel, Scene, Sensor, plan
+from p2sf.scene.planning.plan import plan
+from p2sf.scene.scene import Channel, Scene
+from p2sf.scene.sensor import Sensor
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.views import image
 from p2sf_explorer.compute.views.measured import SAMPLE_SHIFT_UM

@@ -6,23 +6,13 @@ from math import inf
 import numpy as np
 
 from p2sf.glass.media import AIR, MIRROR, ConstantIndex, ModelGlass
-from p2sf.lens import (
-    Aperture,
-    Biconic,
-    Diffraction,
-    Grating,
-    Lens,
-    Placement,
-    Qbfs,
-    Qcon,
-    RadialPolynomial,
-    Rim,
-    Surface,
-    Toroid,
-    XYPolynomial,
-    ZernikeFringeSag,
-    ZernikeStandardSag,
-)
+from p2sf.lens.anamorphic import Biconic, Toroid
+from p2sf.lens.freeform import XYPolynomial, ZernikeFringeSag, ZernikeStandardSag
+from p2sf.lens.grating import Grating
+from p2sf.lens.lens import Aperture, Lens, Surface
+from p2sf.lens.placement import Placement
+from p2sf.lens.rim import Rim
+from p2sf.lens.shapes import Diffraction, Qbfs, Qcon, RadialPolynomial
 
 HALF = 4.0  # mm, within which rays meet the first surface
 

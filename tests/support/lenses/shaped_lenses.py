@@ -1,7 +1,8 @@
 """Lenses with shapes beyond conics and even terms, and with diffractive surfaces, for tests."""
 
 from p2sf.glass.media import MIRROR, ConstantIndex, catalogue_glass
-from p2sf.lens import Aperture, Diffraction, Lens, Qbfs, Qcon, RadialPolynomial, Surface
+from p2sf.lens.lens import Aperture, Lens, Surface
+from p2sf.lens.shapes import Diffraction, Qbfs, Qcon, RadialPolynomial
 
 GLASS = ConstantIndex(1.52)
 PHASE = Diffraction((-2500.0, 140.0, -13.0), 10.0)

@@ -8,17 +8,11 @@ from math import isqrt
 
 from mpmath import atan2, cos, factorial, hypot, inf, matrix, mp, mpf, pi, sign, sin, sqrt
 
-from p2sf.lens import (
-    Biconic,
-    Diffraction,
-    Grating,
-    Lens,
-    Surface,
-    Toroid,
-    XYPolynomial,
-    ZernikeFringeSag,
-    ZernikeStandardSag,
-)
+from p2sf.lens.anamorphic import Biconic, Toroid
+from p2sf.lens.freeform import XYPolynomial, ZernikeFringeSag, ZernikeStandardSag
+from p2sf.lens.grating import Grating
+from p2sf.lens.lens import Lens, Surface
+from p2sf.lens.shapes import Diffraction
 from tests.support.rays.space_rays import poses
 
 DIGITS = 40

@@ -10,17 +10,20 @@ from math import inf
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM, slope_from_degrees
-from p2sf.database import ExactDatabase, GridDatabase, Space, build_database, depth_nodes
 from p2sf.database.accuracy import accuracy
-from p2sf.database.build import build_exact
+from p2sf.database.build import build_database, build_exact
+from p2sf.database.exact import ExactDatabase
+from p2sf.database.grid import GridDatabase
 from p2sf.database.parts import KINDS
 from p2sf.database.render import Sampling, render_source
+from p2sf.database.space import Space
 from p2sf.errors import Cancelled, P2SFError, SamplingError
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import Stop
 from p2sf.paraxial.wavefront import steepest_slope
 from p2sf.psf.seidel import suitable_pixel_um
+from p2sf.spans import depth_nodes
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import prescription, ranges
 

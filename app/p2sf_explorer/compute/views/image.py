@@ -17,12 +17,13 @@ import numpy as np
 
 from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope, slope_from_degrees, vergence
 from p2sf.errors import GeometryError, P2SFError, RequestError
-from p2sf.image import Forming, Progress, form_image, plan_lattice
 from p2sf.image.charts import CHARTS
 from p2sf.image.deblur import photo_statistics, psnr, wiener, with_one_kernel
+from p2sf.image.form import Forming, form_image, plan_lattice
 from p2sf.image.lattice import Lattice
 from p2sf.image.picture import sharpen_planned
 from p2sf.image.preview import preview_lattice, preview_plan
+from p2sf.image.progress import Progress
 from p2sf.image.similarity import ssim
 from p2sf.io.depth_files import DepthScale
 from p2sf.io.photo_files import keeps_light, kept_depth, write_photo
@@ -31,11 +32,13 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import field_from_image_height
-from p2sf.pixel_kernels import RAYS, Recipe
+from p2sf.pixel_kernels.channel import RAYS, Recipe
 from p2sf.pixel_kernels.sensor_points import chief_heights
-from p2sf.scene import Channel, Plan, Scene, Sensor, plan
 from p2sf.scene.field_area import field_area
+from p2sf.scene.planning.plan import Plan, plan
 from p2sf.scene.planning.pricing import computed_counts
+from p2sf.scene.scene import Channel, Scene
+from p2sf.scene.sensor import Sensor
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.views.depths import (
     FLAT,

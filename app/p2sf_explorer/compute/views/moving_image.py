@@ -7,17 +7,17 @@ import numpy as np
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import GeometryError
-from p2sf.image import Progress
 from p2sf.image.components import KernelNodes
 from p2sf.image.focus_pull import MOVING, KeptPicture, focused_picture, keep
 from p2sf.image.kernel_octaves import Setting, setting
 from p2sf.image.lattice import Lattice
 from p2sf.image.preview import MOST_RESIDUAL, WAVE_COUNTS, plan_by_waves
+from p2sf.image.progress import Progress
 from p2sf.image.slabs import LEVELS
 from p2sf.messages import Message
-from p2sf.pixel_kernels import SensorMap
 from p2sf.pixel_kernels.pixels import half_widths, samples_each
-from p2sf.scene import Sensor
+from p2sf.pixel_kernels.sensor_points import SensorMap
+from p2sf.scene.sensor import Sensor
 from p2sf_explorer.compute.views.depths import ONE_DISTANCE, depth_map
 from p2sf_explorer.compute.views.image import (
     MOST_SAMPLES,

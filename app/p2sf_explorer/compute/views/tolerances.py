@@ -12,23 +12,12 @@ import numpy as np
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.tolerance import (
-    Builds,
-    Differentials,
-    Tolerance,
-    by_form,
-    differentials,
-    form_errors,
-    harms,
-    of_worst_field,
-    sensitivities,
-    simulate,
-    usual_sources,
-    usual_tolerances,
-)
-from p2sf.tolerance.criteria import LARGE_IS_GOOD, Criterion, best_first, share_of, within_limit
-from p2sf.tolerance.errors_of_build import MOVES, Kind
+from p2sf.tolerance.builds import Builds, by_form, simulate
+from p2sf.tolerance.criteria import LARGE_IS_GOOD, Criterion, best_first, harms, of_worst_field, share_of, within_limit
+from p2sf.tolerance.differentials import Differentials, differentials, usual_sources
+from p2sf.tolerance.errors_of_build import MOVES, Kind, Tolerance, usual_tolerances
 from p2sf.tolerance.files import COMPENSATING_MM, with_compensators
+from p2sf.tolerance.single import form_errors, sensitivities
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.state.build_errors import BuildErrors, order_errors

@@ -10,7 +10,7 @@ from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import QFileDialog, QLabel, QVBoxLayout, QWidget
 
 from p2sf.errors import P2SFError
-from p2sf.image import Progress
+from p2sf.image.progress import Progress
 from p2sf.messages import Message
 from p2sf_explorer.charts.overlay import Overlay
 from p2sf_explorer.charts.theme import Tokens

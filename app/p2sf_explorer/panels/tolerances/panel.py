@@ -17,8 +17,8 @@ from PySide6.QtWidgets import (
 from p2sf.errors import P2SFError
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
-from p2sf.tolerance import GRADES, Tolerance, of_worst_field
-from p2sf.tolerance.errors_of_build import Kind
+from p2sf.tolerance.criteria import of_worst_field
+from p2sf.tolerance.errors_of_build import GRADES, Kind, Tolerance
 from p2sf_explorer.charts.overlay import Overlay
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.live import Live

@@ -13,8 +13,7 @@ from PySide6.QtWidgets import (
 )
 
 from p2sf.errors import P2SFError
-from p2sf.tolerance import Tolerance
-from p2sf.tolerance.errors_of_build import IRREGULAR, UNITS, Kind
+from p2sf.tolerance.errors_of_build import IRREGULAR, UNITS, Kind, Tolerance
 from p2sf.tolerance.single import INVALID
 from p2sf_explorer.charts.theme import LIGHT, Tokens
 from p2sf_explorer.compute.views.tolerances import Figures

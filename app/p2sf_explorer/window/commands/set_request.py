@@ -8,7 +8,7 @@ from threading import Event
 
 from p2sf.export.psf_set import PIXELS, PixelGrid, SetAxes, axes_of, left_out, psf_set
 from p2sf.export.psf_set_files import HOLDING, check_set_ending, write_psf_set
-from p2sf.image import Progress
+from p2sf.image.progress import Progress
 from p2sf.io.record import describe_many
 from p2sf.messages import Message
 from p2sf.raytrace.focusing import object_distance
