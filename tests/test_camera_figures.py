@@ -8,6 +8,7 @@ import pytest
 import p2sf
 from p2sf.errors import P2SFError
 from p2sf.paraxial.first_order import cardinal_points
+from p2sf.tolerance.builds import evaluate
 from p2sf.tolerance.criteria import share_within
 from p2sf.tolerance.errors_of_build import Tolerance
 
@@ -87,9 +88,20 @@ def test_yields_are_the_shares_that_keep_limits():
         assert (found.yields[name], found.errors[name]) == (share, error)
         assert np.mean(found.values[name] >= limit) == share
     assert found.yields["all"] <= min(found.yields[name] for name in limits)
-    tolerance, harm = found.harms("strehl")[0]
-    assert isinstance(tolerance, Tolerance) and harm > 0
     assert "strehl" in repr(found)
+
+
+def test_the_most_harmful_tolerance_comes_first_and_leaves_the_smaller_yield():
+    """The first and the last of the list alone, at plus and minus its amount: the Strehl ratio tells which is worse."""
+    found = CAMERA.tolerances({"strehl": 0.7}, builds=50, seed=3)
+    listed = found.harms("strehl")
+    assert all(isinstance(tolerance, Tolerance) for tolerance, _ in listed)
+    assert (np.diff([harm for _, harm in listed]) <= 0).all() and listed[0][1] > 0
+    places = [found.known.tolerances.index(listed[at][0]) for at in (0, -1)]
+    alone = np.eye(len(found.known.tolerances))[places] * found.known.amounts
+    both = evaluate(found.known, np.concatenate([alone, -alone]), found.compensators).strehl.min(1)
+    first, last = both.reshape(2, 2).min(0)
+    assert first < last
 
 
 @pytest.mark.parametrize(

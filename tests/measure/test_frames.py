@@ -343,6 +343,7 @@ def test_pixels_of_a_psf_are_read_as_pixels(ending, tmp_path, triplet):
     made = render_integrated(triplet, Source(wavelength_nm=550.0), "seidel", 41, PITCH)
     frame = read_frame(write_psf(made, tmp_path / f"psf.{ending}", {}))
     assert frame.psf and frame.integrated and frame.geometry.pixel_um == pytest.approx(PITCH)
+    assert frame.variance(made.values) == pytest.approx((1e-3 * made.values.max()) ** 2)  # which is assumed
     optics = lens_optics(triplet, np.inf, triplet.reference_wavelength_um, PITCH)
     own = coefficients(triplet, np.inf, 0.0, triplet.reference_wavelength_um)
 

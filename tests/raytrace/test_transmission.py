@@ -15,6 +15,7 @@ from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source
 from p2sf.lens.transmission import Transmission
 from p2sf.lensfile.library import find_lens
+from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
 from p2sf.paraxial.seidel import coefficients
 from p2sf.pixel_kernels.illumination import light_collected
 from p2sf.pupil.quadrature import whole_disc
@@ -63,6 +64,15 @@ def test_the_energy_of_rays_is_the_mean_of_the_transmission():
         rays = pencil(each, Source(wavelength_um=UM), xi, eta)
         mean = (share * rays.light).sum() / (share * clear.light).sum()
         assert mean == pytest.approx(factor * (0.9 - 0.02 * RIM**2 / 2), rel=1e-6)
+
+
+def test_a_lens_file_in_inches_passes_the_light_of_the_same_lens_in_millimetres():
+    """The transmission at a height in inches is that at 25.4 times as many millimetres, t₂ per square inch."""
+    passed = Transmission(0.9, -0.02)
+    text = lens_to_toml(focused(passed)).replace('unit = "mm"', 'unit = "in"')
+    wide = parse_toml(text, "inches.toml").surfaces[0].transmission
+    heights = np.linspace(0, RIM, 5)
+    assert wide.at((25.4 * heights) ** 2) == pytest.approx(0.9 - 0.02 * heights**2, rel=1e-12)
 
 
 def test_the_light_collected_is_that_of_the_rays():

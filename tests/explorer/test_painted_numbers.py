@@ -1,0 +1,190 @@
+"""Numbers that people read off the window, from what is painted and written, against laws of their own."""
+
+import re
+from dataclasses import replace
+from math import inf
+
+import numpy as np
+import pytest
+from PySide6.QtGui import QImage
+
+from p2sf.lens.lens import indices
+from p2sf.lensfile.library import find_lens
+from p2sf_explorer.charts.colour_scale import ColourScale
+from p2sf_explorer.charts.plots import lookup
+from p2sf_explorer.charts.theme import tokens
+from p2sf_explorer.compute.live import live
+from p2sf_explorer.compute.quantities import QUANTITIES
+from p2sf_explorer.compute.setup import paraxial_setup, ranges, with_lens
+from p2sf_explorer.compute.views import field_map, through_focus
+from p2sf_explorer.panels.field_map import FieldMapPanel
+from p2sf_explorer.playback.sweep import sweep
+from p2sf_explorer.scene3d.scene import scene
+from p2sf_explorer.state.state import change, new_state
+
+FIRST = new_state(method="seidel", theme="light")
+
+
+def painted(widget) -> np.ndarray:
+    """Return how bright every pixel of a widget is, 0 to 255, rows downwards."""
+    image = widget.grab().toImage().convertToFormat(QImage.Format.Format_Grayscale8)
+    rows = np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.bytesPerLine())
+    return rows[:, : image.width()].astype(float)
+
+
+@pytest.mark.parametrize(("lens", "f_number"), [("double_gauss_28", 8.0), ("achromat_f6", 11.0)])
+def test_the_band_of_the_chromatic_shift_is_the_depth_of_focus(window, lens, f_number):
+    """±λ/(2·NA²) = ±2λN² for small apertures; 0.5 % is what sin and tan differ by at f/8."""
+    window.store.replace(change(with_lens(FIRST, lens), f_number=f_number, tab="chromatic", field_deg=0.0))
+    panel, half = window.panels["chromatic"], 2 * 0.5875618 * f_number**2
+    below, above = (curve.data()[1] for curve in panel.band)
+    assert list(above) == pytest.approx([half] * 2, rel=5e-3) and list(below) == list(-np.asarray(above))
+    said = float(re.search(r"±([\d.]+) µm", panel.widget.readout.text())[1])
+    assert said == pytest.approx(half, rel=1e-2)  # three digits
+
+
+def test_coma_on_the_painted_map_points_away_from_the_middle_as_its_sign_says(window, qtbot):
+    """Rays land at −λ∇W/NA from the chief ray: those of ρ = 1 on the mean at −2λW31/NA along the field.
+
+    A W31 < 0 (Welford 1986, §7.4) has its flare on the far side from the middle of the map, which is the sensor seen
+    with +y up and +x to the right.
+    """
+    state = change(FIRST, solo=("w31",), f_number=2.0)
+    asked = replace(field_map.field_map(live(state, "preview")), window=(64, 0.75))
+    assert float(paraxial_setup(change(asked.state, field_deg=10.0)).coefficients.w31) < -3
+    panel = FieldMapPanel(window.store)
+    qtbot.addWidget(panel.widget)
+    panel.restyle(tokens("light", "grey"))
+    panel.widget.resize(1000, 700)
+    panel.widget.grab()  # lays it out
+    panel._scale = "linear"
+    panel._paint(asked, field_map.answer(asked, lambda: False, lambda share, found: None))
+    chart, light = panel.chart, painted(panel.chart)
+    for x, y in ((0.0, 1.0), (0.0, -1.0), (1.0, 0.0), (-1.0, 0.0)):
+        room = next(room for room in map(chart.room, chart.tiles) if is_towards(chart, room.center(), x, -y))
+        part = light[int(room.top()) + 4 : int(room.bottom()) - 4, int(room.left()) + 4 : int(room.right()) - 4]
+        part = np.maximum(part - part.max() / 10, 0)
+        rows, columns = part.sum(1) / part.sum(), part.sum(0) / part.sum()
+        assert third_moment(columns) * x - third_moment(rows) * y > 0.3
+
+
+def is_towards(chart, point, x: float, y: float) -> bool:
+    """Return whether a point of the widget is right, left, below or above the middle of its area, at the last tile."""
+    away = point - chart.area.center()
+    along, across = away.x() * x + away.y() * y, away.x() * y + away.y() * x
+    half = chart.area.width() / 2 if x else chart.area.height() / 2
+    return abs(across) < 2 and along > 0.5 * half
+
+
+def third_moment(light: np.ndarray) -> float:
+    """Return the skewness of light along an axis: positive where it trails off towards larger places."""
+    at = np.arange(light.size) - light @ np.arange(light.size)
+    return (light @ at**3) / (light @ at**2) ** 1.5
+
+
+@pytest.mark.parametrize(("lens", "f_number"), [("landscape", 8.0), ("double_gauss_28", 2.8)])
+def test_the_strip_reaches_the_focus_that_balances_spherical_aberration(lens, f_number):
+    """Wd = −W40 at the paraxial focus: Δz = −2λW40/NA² (Mahajan 1991, §8.3)."""
+    state = change(with_lens(FIRST, lens), field_deg=0.0, f_number=f_number)
+    strip, c = through_focus.strip(live(state, "preview")), paraxial_setup(state).coefficients
+    depth = float(c.wavelength_um) / float(c.na) ** 2
+    balanced = -2 * depth * float(c.w40 + c.w20 + c.wd)
+    assert abs(float(c.w40)) > 1 and strip.shifts_um[0] <= balanced - depth < balanced + depth <= strip.shifts_um[-1]
+
+
+VALUES = np.array([1.0, 0.1, 1e-2, 1e-3, 1e-4])
+
+
+@pytest.mark.parametrize(
+    ("scale", "bright"),
+    [
+        ("linear", VALUES),
+        ("sqrt", np.sqrt(VALUES)),
+        ("log", 1 + np.log10(VALUES) / 5),
+        ("log8", 1 + np.log10(VALUES) / 8),
+    ],
+)
+def test_light_has_the_colour_that_stands_beside_its_number_on_the_bar(window, scale, bright):
+    """The picture's colours are the bar's at the height where the bar names the value, on every scale."""
+    heat = window.panels["psf"].map
+    window.store.update(psf_scale=scale)
+    shown = ColourScale("CET-L4", 0.0, 1.0, stretch=scale)
+    heat.show_map(VALUES[None, :].repeat(5, 0), (-2.5, -2.5, 5.0, 5.0), shown)
+    assert heat.indices[0] == pytest.approx(254 * np.maximum(bright, 0), abs=1)
+    for part, text in shown.labels():
+        power = re.fullmatch(r"10⁻([⁰¹²³⁴-⁹])", text)
+        value = 10.0 ** -"⁰¹²³⁴⁵⁶⁷⁸⁹".index(power[1]) if power else float(text)
+        assert float(shown.parts(np.array(value))) == pytest.approx(part, abs=0.02)
+
+
+@pytest.mark.parametrize("stretch", ["linear", "sqrt"])
+def test_what_is_more_than_zero_has_the_upper_colours_of_a_signed_bar(window, stretch):
+    """A − B: as far above the middle as −(A − B) is below, at the height where the bar writes the number."""
+    heat, values = window.panels["psf"].map, np.array([-0.4, -0.1, 0.0, 0.1, 0.4])
+    shown = ColourScale("CET-D1A", -0.4, 0.4, stretch=stretch)
+    heat.show_map(values[None, :].repeat(5, 0), (-2.5, -2.5, 5.0, 5.0), shown)
+    share = values / 0.4 if stretch == "linear" else np.sign(values) * np.sqrt(np.abs(values) / 0.4)
+    assert heat.indices[0] == pytest.approx(127 * (1 + share), abs=1)
+    blue, red = (lookup("CET-D1A")[at] & 0xFF > lookup("CET-D1A")[at] >> 16 & 0xFF for at in (20, 234))
+    assert blue and not red, "less is blue and more is red"
+    for part, text in shown.labels():
+        value = float(text.replace("−", "-"))
+        assert float(shown.parts(np.array(value))) == pytest.approx(part, abs=0.01)
+
+
+def focal_points(name: str) -> tuple[float, float]:
+    """Return the focal length and how far the front focus lies before the first vertex, mm, by 2 × 2 matrices."""
+    lens = find_lens(name)
+    index, system = indices(lens, lens.reference_wavelength_um), np.eye(2)
+    for number, surface in enumerate(lens.surfaces):
+        bent = np.array([[1, 0], [-(index[number + 1] - index[number]) * surface.vertex_curvature, 1]])
+        gap = lens.gaps[number] if number < len(lens.surfaces) - 1 else 0.0
+        system = np.array([[1, gap / index[number + 1]], [0, 1]]) @ bent @ system
+    return -1 / float(system[1, 0]), -float(system[1, 1] / system[1, 0])
+
+
+@pytest.mark.parametrize("name", ["double_gauss_28", "achromat_f6", "petzval", "cooke_triplet"])
+def test_the_sliders_of_distance_begin_a_fifth_of_the_focal_length_before_the_front_focus(window, name):
+    """Or half a focal length from the lens, whichever is farther, and up to a third more, to be a round number."""
+    focal, front = focal_points(name)
+    least = max(front + focal / 5, focal / 2)
+    window.store.replace(with_lens(FIRST, name))
+    for key in ("depth_mm", "focus_mm"):
+        row = window.controls.rows[key]
+        row.slider.setValue(0)
+        found = getattr(window.store.state.optics, key)
+        assert least * (1 - 1e-9) <= found <= least * 4 / 3 * (1 + 1e-9)
+        window.store.update(**{key: inf if key == "depth_mm" else None})
+
+
+@pytest.mark.parametrize("key", ["field_deg", "f_number", "depth_mm", "added_wd"])
+def test_a_sweep_turns_without_a_jump(key):
+    """Over three ways it never moves more in a frame than the way there does, and turns at both ends."""
+    way = sweep(new_state(playback_slider=key, playback_seconds=2.0))
+    moments = np.linspace(0, 6, 601)
+    parts = np.array([way.part(way.at(float(moment))) for moment in moments])
+    assert np.abs(np.diff(parts)) == pytest.approx(np.full(600, 0.005), abs=1e-9)
+    assert parts[[0, 200, 400, 600]] == pytest.approx([0, 1, 0, 1])
+
+
+@pytest.mark.parametrize("depth_mm", [inf, 5000.0, 60.0])
+def test_rays_in_space_start_at_a_near_object_and_before_the_lens_for_a_far_one(depth_mm):
+    """All from one point of a near object; from 45 % of the drawing's length before the lens where that is nearer."""
+    answer = live(change(FIRST, depth_mm=depth_mm, field_deg=5.0, f_number=8.0, focus_mm=2000.0), "preview")
+    shown, drawn = scene(answer), answer.layout.drawing
+    starts, next_ = shown.rays[:, 0], shown.rays[:, 1]
+    before = min(depth_mm, 0.45 * (drawn.right - drawn.left) - drawn.left)
+    assert starts[:, 2] == pytest.approx(np.full(len(starts), -before)) and before > 0
+    ways = (next_ - starts) / (next_ - starts)[:, 2:]
+    if depth_mm == inf:
+        assert ways[:, 1] == pytest.approx(np.full(len(ways), np.tan(np.deg2rad(5.0))))
+    else:  # back to the object
+        assert np.ptp((starts + ways * (before - depth_mm))[:, :2], axis=0) == pytest.approx([0, 0], abs=1e-6)
+
+
+@pytest.mark.parametrize("key", ["f_number", "depth_mm", "field_deg", "wavelength_nm", "blades"])
+def test_a_scrubbed_number_goes_as_far_as_its_handle_would(key):
+    quantity = next(quantity for quantity in QUANTITIES if quantity.key == key)
+    scale = quantity.scale(ranges(find_lens("double_gauss_28")))
+    for start, by in ((0.2, 0.3), (0.9, -0.5), (0.0, 1.0 - 1e-9), (0.5, 0.0)):
+        assert scale.moved(scale.value(start), by) == pytest.approx(scale.value(start + by), rel=1e-6)
