@@ -1,13 +1,14 @@
 """What compares versions finds what differs, and what counts the program counts it."""
 
 import ast
+from itertools import islice
 from math import inf
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from tests.long import golden, structure, walks
+from tests.long import breaks, golden, mutation, structure, walks
 
 
 def test_a_difference_is_judged_by_the_larger_value():
@@ -67,6 +68,49 @@ def test_code_is_counted_without_text():
     assert [place[1] for place in structure.branches(path, tree)] == [7]
     assert [place[2] for place in structure.method_comparisons(path, tree)] == ["c == 'traced'"]
     assert [place[2] for place in structure.long_signatures(path, tree)] == ["f"]
+
+
+BROKEN = {
+    "def f(a, b):\n    return (a) + 2 * b\n": {
+        "sign": ["return (a) - 2 * b"],
+        "factor": ["return (a) + (2 * (2 * b))"],
+    },
+    "def f(a):\n    low, high = a[:, 1].x\n": {
+        "axes": ["high, low = a[:, 1].x", "low, high = a[:, 1].y", "low, high = a[:, 0].x"],
+    },
+    "def f(a):\n    return range(len(a) // 2)\n": {
+        "one_off": ["return range(len(a) // 2 + 1)", "return range((len(a) // 2 + 1))"],
+    },
+    "def f(a):\n    b = 1e-3 * np.deg2rad(a)\n": {
+        "factor": ["b = (2 * (1e-3 * np.deg2rad(a)))"],
+        "unit": ["b = 1 * np.deg2rad(a)", "b = 1e-3 * (a)"],
+    },
+    "def f(a):\n    if a and (a != 3):\n        return None\n": {
+        "guard": ["if False:", "if a:"],
+    },
+    'def f(a: "x + y"):\n    raise ValueError(f"{a + 1}" + "b")\n': {},
+}
+
+
+@pytest.mark.parametrize("source", BROKEN)
+def test_a_break_changes_one_expression_and_no_text(source):
+    found = list(breaks.places("p2sf/x.py", source.encode()))
+    assert {(one.rule, one.after) for one in found} == {
+        (rule, after) for rule, lines in BROKEN[source].items() for after in lines
+    }
+    assert all(one.compiles(source.encode()) for one in found)
+
+
+def test_a_draw_begins_as_a_longer_one_does_and_takes_every_rule_in_turn():
+    first, more = (list(islice(mutation.drawn(1, "p2sf/psf/sums"), count)) for count in (6, 12))
+    assert first == more[:6] and {one.rule for one in first} == {rule.__name__ for rule in breaks.RULES}
+
+
+@pytest.mark.slow
+def test_every_file_that_is_broken_has_tests_the_closest_first():
+    assert mutation.tests_of("p2sf/psf/huygens.py")[:2] == ["tests/psf/test_fitted.py", "tests/psf/test_huygens.py"]
+    files = (path for subject in mutation.SUBJECTS for path in (mutation.ROOT / subject).rglob("*.py"))
+    assert all(mutation.tests_of(path.relative_to(mutation.ROOT).as_posix()) for path in files)
 
 
 MOST_ACTIONS = {"MTF of five fields": 2, "report": 2, "a lesson of the screen": 3, "A beside B": 1}

@@ -1,111 +1,198 @@
-"""Do the tests notice when the formulas change? Mutation testing by mutmut, in a copy of the project.
+"""Do the tests notice when the code is wrong? Single breaks, each tried in a copy of the project.
 
-``python -m tests.long.mutation [module …]`` (needs ``pip install mutmut``; by default those of `TESTS`) prints
-for each module how many mutants its tests kill, and every survivor as a difference. The working tree is not touched.
-``psf/seidel:7`` tries the tenth of its mutants whose number ends in 7.
+``python -m tests.long.mutation --breaks 200 --seed 1 --keep FILE`` draws breaks (`breaks.py`) over the whole core and
+the numbers of the window, as many of each rule, and runs the tests of the first tier that stand for the broken file:
+those that import it or have its name, then those of its folder and of `BESIDE`, up to the first that fails. Breaks are
+drawn at random and tried in the order drawn, so that the first fifty are a fair sample of all. FILE keeps the outcomes:
+a run goes on where it ended; ``--again`` tries again what no test noticed. ``--only p2sf/psf`` draws in one folder.
 
-Last complete runs, in which survivors are mutants that no test tells from the original:
-
-- gaussian: 527 of 570 (92.5 %). 26 are ``strict`` of a zip over columns of one length, 6 a dtype that all numbers
-  have already, 6 the short way of one source, which gives the numbers of the long one; the others multiply a height
-  of 0, count a gap behind the last surface, begin a sum or an axis where broadcasting would.
-- seidel: 304 of 319 (95.3 %). 12 times ``strict``, two short ways, −2 for the −1 of a reshape.
-- pupils: 463 of 465 (99.6 %). −2 for −1, and a division by a sign of 1 or −1.
-- wavefront: 341 of 361 (94.5 %), one by timeout: a slope 1728 times too large, which its first test refuses at
-  once and others sum for long. Memory used twice (4), dtypes (2), −2 for −1; a tilt of 0 added or carried (3);
-  the signs of an angular slope whose largest value all of them share (3), and powers of ρ in it, which is largest at
-  the rim, where they are 1 (2); slope points more or fewer within the promised 1 % (3); what a division by 0 leaves
-  undefined and then multiplies by 0 (2).
-- psf: 438 of 445 (98.4 %). 3 times ``strict``; more nodes or a wider empty rim than needed, in the two plain formulas
-  that others are compared with: the same picture to rounding (4).
-- fitted: 188 of 189 (99.5 %). None in place of False for a table's odd half.
+Survivors are listed with what they change. Those of `EQUIVALENT` change nothing that anybody sees; they are left out.
 """
 
+import argparse
+import ast
+import json
+import os
 import re
+import resource
 import shutil
 import subprocess
 import sys
 import tempfile
 from collections import Counter
+from collections.abc import Iterator
+from functools import lru_cache
+from itertools import islice, zip_longest
 from pathlib import Path
 
+from tests.long.breaks import RULES, Break, places
+
 ROOT = Path(__file__).parents[2]
-FIRST_ORDER = (
-    "tests/paraxial/test_first_order.py",
-    "tests/paraxial/test_pupils.py",
-    "tests/paraxial/test_pupil_arguments.py",
-    "tests/paraxial/test_seidel.py",
-    "tests/extremes/test_named.py",
-    "tests/extremes/test_rounding.py",
-)
-TESTS = {
-    "paraxial/first_order": FIRST_ORDER,
-    "paraxial/pupils": FIRST_ORDER,
-    "paraxial/seidel": FIRST_ORDER,
-    "paraxial/wavefront": ("tests/paraxial/test_wavefront.py", "tests/pupil/test_quadrature.py"),
-    "psf/seidel": ("tests/psf/test_seidel.py", "tests/extremes/test_psf_extremes.py"),
-    "psf/fitted": ("tests/psf/test_fitted.py", "tests/psf/test_traced.py"),
+WINDOW = ("charts", "compare", "compute", "panels", "playback", "report", "scene3d", "state", "widgets")
+SUBJECTS = ("p2sf", *(f"app/p2sf_explorer/{name}" for name in WINDOW))
+BESIDE = {  # where else a folder's numbers are read, by the beginning of its path
+    "app/p2sf_explorer/compute": ("tests/explorer/panels", "tests/explorer/test_every_road.py"),
+    "app/p2sf_explorer/charts": ("tests/explorer/panels",),
+    "app/p2sf_explorer/widgets": ("tests/explorer/panels", "tests/explorer/window"),
+    "app/p2sf_explorer/state": ("tests/explorer/window",),
+    "p2sf/studies": ("tests/cli",),
+    "p2sf/lens": ("tests/lensfile", "tests/raytrace"),
 }
-BARE = (
-    "paraxial/seidel",
-    "paraxial/wavefront",
-)  # tried without their caches, because mutmut passes over decorated functions
-SETTINGS = """[mutmut]
-source_paths=p2sf
-only_mutate=p2sf/{module}.py
-pytest_add_cli_args_test_selection={tests}
-pytest_add_cli_args=
-    -p
-    no:cacheprovider
-    -W
-    error::RuntimeWarning
-also_copy=
-    lenses
-    app
-    pyproject.toml
-    tests
-"""
+NOT_RUN = ("tests/test_package.py", "tests/explorer/i18n", "tests/explorer/handbook")  # read sources, not numbers
+SECONDS = 60.0  # of the processor, for the tests of one break
+BYTES = 8 << 30  # of memory, for a break that asks for too much
+EQUIVALENT: dict[tuple[str, str], str] = {}
+"""Of a file and a broken line, why nobody can tell it from the right one."""
 
 
-def mutate(module: str, folder: Path, ending: str = "") -> Counter:
-    """Return how many mutants of a module were killed or survived, and print the survivors, and what timed out."""
-    for name in ("p2sf", "app", "tests", "lenses"):
-        shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
-    shutil.copy(ROOT / "pyproject.toml", folder)
-    if module in BARE:
-        source = folder / "p2sf" / f"{module}.py"
-        source.write_text(re.sub(r"^@lru_cache.*\n", "", source.read_text(), flags=re.MULTILINE))
-    tests = "".join(f"\n    {path}" for path in TESTS[module])
-    (folder / "setup.cfg").write_text(SETTINGS.format(module=module, tests=tests))
-    run(
-        "run", "--max-children", "1", *([f"p2sf.{module.replace('/', '.')}.*{ending}"] if ending else []), folder=folder
+def drawn(seed: int, only: str = "") -> Iterator[Break]:
+    """Yield breaks at random, of every rule in turn."""
+    found: dict[str, list[Break]] = {rule.__name__: [] for rule in RULES}
+    for path in sorted(path for subject in SUBJECTS for path in (ROOT / subject).rglob("*.py")):
+        file = path.relative_to(ROOT).as_posix()
+        for one in places(file, path.read_bytes()) if file.startswith(only) else ():
+            found[one.rule].append(one)
+    for row in zip_longest(*(sorted(of_rule, key=lambda one: one.rank(seed)) for of_rule in found.values())):
+        yield from (one for one in row if one and one.compiles((ROOT / one.file).read_bytes()))
+
+
+@lru_cache
+def imported() -> dict[str, frozenset[str]]:
+    """Return the modules, and names in them, that every file of tests imports."""
+    found = {}
+    for path in sorted((ROOT / "tests").rglob("test_*.py")):
+        names = set()
+        for node in ast.walk(ast.parse(path.read_bytes())):
+            if isinstance(node, ast.ImportFrom) and node.module:
+                names |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
+            elif isinstance(node, ast.Import):
+                names |= {alias.name for alias in node.names}
+        file = path.relative_to(ROOT).as_posix()
+        if not file.startswith((*NOT_RUN, "tests/benchmarks")):
+            found[file] = frozenset(names)
+    return found
+
+
+def folder_of(file: str) -> str:
+    """Return the folder of tests for a file of code: that of the same name, or the next above it."""
+    own = Path("tests") / Path(file.replace("app/p2sf_explorer", "explorer").removeprefix("p2sf/")).parent
+    return next(folder.as_posix() for folder in (own, *own.parents) if (ROOT / folder).is_dir())
+
+
+def tests_of(file: str) -> list[str]:
+    """Return the files of tests for a file of code, the closest first."""
+    module = file.removeprefix("app/").removesuffix(".py").removesuffix("/__init__").replace("/", ".")
+    folder = folder_of(file)
+    beside = tuple(place for start, known in BESIDE.items() if file.startswith(f"{start}/") for place in known)
+
+    def distance(test: str) -> int:
+        in_folder = test.startswith("tests/test_" if folder == "tests" else f"{folder}/")
+        if test.endswith(f"/test_{Path(file).stem}.py") or module in imported()[test]:
+            return 0 if in_folder else 1
+        return 2 if in_folder else 3 if test.startswith(beside) else 4
+
+    return sorted((test for test in imported() if distance(test) < 4), key=lambda test: (distance(test), test))
+
+
+def outcome(one: Break, copy: Path, seconds: float) -> dict[str, str]:
+    """Return what the tests say to a break, which stands in the copy only meanwhile."""
+    path = copy / one.file
+    source, times = path.read_bytes(), path.stat()
+    path.write_bytes(one.applied(source))
+    try:
+        return run_tests(tests_of(one.file), copy, seconds)
+    finally:
+        path.write_bytes(source)
+        os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))  # its compiled form is that of this time
+
+
+def run_tests(tests: list[str], copy: Path, seconds: float) -> dict[str, str]:
+    def limited() -> None:
+        resource.setrlimit(resource.RLIMIT_CPU, (round(seconds), round(seconds) + 5))
+        resource.setrlimit(resource.RLIMIT_AS, (BYTES, BYTES))
+
+    command = [sys.executable, "-m", "pytest", "-x", "-p", "no:cacheprovider", "--tb=line", *tests]
+    paths = os.pathsep.join((str(copy), str(copy / "app")))
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    try:
+        result = subprocess.run(
+            command,
+            cwd=copy,
+            env={**os.environ, "PYTHONPATH": paths},
+            preexec_fn=limited,
+            capture_output=True,
+            text=True,
+            timeout=10 * seconds,
+        )
+        code, said = result.returncode, result.stdout + result.stderr
+    except subprocess.TimeoutExpired:
+        code, said = -1, ""
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    failed = re.search(r"(?:FAILED|ERROR) (tests/\S+)", said)
+    return {
+        "outcome": "survived" if code in (0, 5) else "out of time" if code < 0 else "noticed",
+        "by": failed[1] if failed else "" if code in (0, 5) else said.strip()[-200:],
+        "seconds": f"{after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime:.0f}",
+    }
+
+
+def copied(folder: str) -> Path:
+    """Return a copy of the project, without what is not of it."""
+    copy = Path(folder) / "project"
+    shutil.copytree(ROOT, copy, ignore=shutil.ignore_patterns("__pycache__", ".git", ".venv", ".*_cache", "dist"))
+    return copy
+
+
+def key(one: Break) -> str:
+    return f"{one.file}\n{one.before}\n{one.after}"
+
+
+def tried(breaks: list[Break], keep: Path, again: bool, seconds: float) -> dict[str, dict[str, str]]:
+    """Return the outcome of every break by its key, those of the file without trying them again."""
+    lines = keep.read_text(encoding="utf-8").splitlines() if keep.exists() else []
+    known = {line["key"]: line for line in map(json.loads, lines)}
+    with tempfile.TemporaryDirectory() as folder:
+        copy = copied(folder)
+        for one in breaks:
+            at = key(one)
+            if at in known and not (again and known[at]["outcome"] != "noticed"):
+                continue
+            known[at] = {"key": at, "rule": one.rule, **outcome(one, copy, seconds)}
+            with keep.open("a", encoding="utf-8") as file:
+                file.write(json.dumps(known[at], ensure_ascii=False) + "\n")
+    return known
+
+
+def report(breaks: list[Break], known: dict[str, dict[str, str]]) -> None:
+    """Print the breaks that no test noticed, and how many of each rule were."""
+    counts: Counter[tuple[str, str]] = Counter()
+    for one in breaks:
+        found = known[key(one)]["outcome"]
+        found = "equivalent" if (one.file, one.after) in EQUIVALENT and found != "noticed" else found
+        counts[one.rule, found] += 1
+        if found in ("survived", "out of time"):
+            print(f"{one.file}:{one.line} {one.rule}, {found}\n    {one.before}\n    {one.after}")
+    columns = ("noticed", "survived", "out of time", "equivalent")
+    for rule in RULES:
+        print(f"{rule.__name__:8}", *(f"{counts[rule.__name__, column]} {column}" for column in columns), sep="  ")
+    noticed, equivalent = (
+        sum(n for (_, what), n in counts.items() if what == asked) for asked in (columns[0], columns[3])
     )
-    states = dict(
-        line.strip().rsplit(": ", 1)
-        for line in run("results", "--all", "true", folder=folder).splitlines()
-        if ": " in line and not line.endswith("not checked")
-    )
-    for name, state in states.items():
-        if state != "killed":
-            print(f"--- {state}\n{run('show', name, folder=folder)}", flush=True)
-    return Counter(states.values())
-
-
-def run(*arguments: str, folder: Path) -> str:
-    result = subprocess.run([sys.executable, "-m", "mutmut", *arguments], cwd=folder, capture_output=True, text=True)
-    if result.returncode and arguments[0] == "run":
-        print(result.stdout[-3000:], result.stderr[-3000:])
-    return result.stdout
+    told = len(breaks) - equivalent
+    print(f"{noticed} of {told} breaks that are not equivalent noticed ({100 * noticed / max(1, told):.1f} %)")
 
 
 def main() -> None:
-    for asked in sys.argv[1:] or TESTS:
-        module, _, ending = asked.partition(":")
-        with tempfile.TemporaryDirectory() as folder:
-            found = mutate(module, Path(folder), ending)
-        killed = found["killed"] + found["timeout"]
-        share = 100 * killed / max(1, found.total())
-        print(f"{asked}: {killed} of {found.total()} mutants killed ({share:.1f} %), {dict(found)}", flush=True)
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--breaks", type=int, default=200)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--keep", type=Path, default=Path("breaks.jsonl"))
+    parser.add_argument("--again", action="store_true", help="try again what no test noticed")
+    parser.add_argument("--seconds", type=float, default=SECONDS, help="of the processor for each break")
+    parser.add_argument("--only", default="", help="draw in files whose path begins so")
+    asked = parser.parse_args()
+    breaks = list(islice(drawn(asked.seed, asked.only), asked.breaks))
+    report(breaks, tried(breaks, asked.keep, asked.again, asked.seconds))
 
 
 if __name__ == "__main__":
