@@ -8,6 +8,7 @@ quantity is converted to the unit that the name of its parameter ends in.
 
 import os
 import warnings
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -144,8 +145,8 @@ def render(
     with using_threads(threads):
         options = PsfOptions(quality, min_r2, clip)
         psf = render_integrated(setup.lens, setup.source, method, pixels, pixel_um, options, integrated)
-    made = {"azimuth_deg": setup.source.azimuth_deg, "provenance": partial(describe, setup)}
-    return warn_of_window(psf.with_fields(**made), 6)
+    psf = replace(psf.with_figures(provenance=partial(describe, setup)), azimuth_deg=setup.source.azimuth_deg)
+    return warn_of_window(psf, 6)
 
 
 @check_arguments

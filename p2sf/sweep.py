@@ -362,10 +362,7 @@ def _psf(
 
 
 def _psf_of(point: SweepPoint, **how: Any) -> Figures:
-    from p2sf.psf.peak import peaks_on_demand
-
-    with peaks_on_demand():
-        psf = _psf(point, **how)
+    psf = _psf(point, **how)
     about = {"method": psf.method, "predicted_error": _or_nan(psf.predicted_error)}
     return {"psf": psf.values, "energy": _or_nan(psf.energy), **about, "caution": psf.caution}
 

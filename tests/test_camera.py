@@ -18,6 +18,7 @@ from p2sf.errors import RequestError
 from p2sf.lens.lens import with_absorption, with_aim, with_f_number, with_mask
 from p2sf.lensfile.library import find_lens
 from p2sf.parameters import CAMERA_PARAMETERS, MASK_PARAMETERS, PARAMETERS, SOURCE_PARAMETERS
+from p2sf.psf.result import Later
 from p2sf.pupil.mask import MaskSettings, PupilMask
 from p2sf.scene.files import KEYS
 from p2sf.scene.scene import Scene
@@ -85,6 +86,8 @@ def names(kind) -> list[str]:
 
 def same(one, other) -> bool:
     """Return whether two results are the same to the last bit, but for how long they took."""
+    if isinstance(one, Later):
+        return same(one(), other())
     if is_dataclass(one):
         return all(same(getattr(one, name), getattr(other, name)) for name in names(one) if name != "seconds")
     if isinstance(one, tuple | list):

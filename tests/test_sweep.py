@@ -3,6 +3,7 @@
 import pickle
 import warnings
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from math import inf
 
 import numpy as np
@@ -200,7 +201,7 @@ def test_psfs_and_databases_are_datasets_too():
     data = one.to_xarray()
     assert data["psf"].dims == ("y_um", "x_um") and float(data["psf"].sel(x_um=0, y_um=4)) == one.values[5, 4]
     assert (float(data["wavelength_nm"]), data["pixel_um"].attrs) == (pytest.approx(550), {"units": "um"})
-    both = one.with_fields(values=np.stack([one.values] * 2), wavelength_um=np.array([0.5, 0.6])).to_xarray()
+    both = replace(one, values=np.stack([one.values] * 2), wavelength_um=np.array([0.5, 0.6])).to_xarray()
     assert both["wavelength_nm"].dims == ("axis_0",) and both["psf"].shape == (2, 9, 9)
     swept = CAMERA.sweep(depth_mm=3000, field_deg=[0, 9], wavelength_nm=550).to_xarray(pixels=9)
     np.testing.assert_array_equal(swept["psf"].sel(field_deg=9), one.values)

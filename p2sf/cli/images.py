@@ -1,6 +1,6 @@
 """`p2sf psf`: one point spread function, computed and written to a file."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -195,7 +195,7 @@ def _of_one_colour(lens: str, request: Request, picture: Picture, output: Path |
         setup = set_up(find_lens(lens), request)
         if not as_json:
             caution(setup, picture.seidel and picture.sampling != "fft")
-        result, title = render(setup, picture).with_fields(provenance=partial(describe, setup)), heading(setup)
+        result, title = render(setup, picture).with_figures(provenance=partial(describe, setup)), heading(setup)
         accuracy = None
         aim, energy = setup.lens.aim, energy_of(setup, result.method, picture.clip)
     if output:
@@ -245,7 +245,7 @@ def render(setup: Setup, picture: Picture) -> Psf:
 
     options = PsfOptions(min_r2=picture.min_r2, clip=picture.clip)
     made = render_integrated(setup.lens, setup.source, method, picture.side, picture.pixel_um, options)
-    return made.with_fields(azimuth_deg=setup.source.azimuth_deg) if setup.source.azimuth_deg else made
+    return replace(made, azimuth_deg=setup.source.azimuth_deg) if setup.source.azimuth_deg else made
 
 
 def _from_coefficients(setup: Setup, picture: Picture) -> Psf:
@@ -352,6 +352,7 @@ def summary(
         ("samples", f"{result.values.shape[-1]} × {result.values.shape[-2]}", LIGHT if result.integrated else POINTS),
         ("pixel", result.pixel_um, "µm"),
         ("Strehl ratio", known["strehl"], NO_STREHL if known["strehl"] is None else SAME_PUPIL),
+        *([("other peaks within 0.2 % of it", known["rivals"], "")] if known["rivals"] else []),
         *(
             []
             if result.peak_um is None

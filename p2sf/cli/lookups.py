@@ -62,7 +62,7 @@ def looked_up(name: str, request: Request, pixels: int, pixel_um: float | None) 
     if request.depth_mm is None:
         request = replace(request, depth_mm=stored.object_distance_mm)
     source = source_of(moved.database, request)
-    psf = pixels_psf(moved.database, source, pixels, pixel_um).with_fields(provenance=moved.describe(source))
+    psf = pixels_psf(moved.database, source, pixels, pixel_um).with_figures(provenance=moved.describe(source))
     return LookedUp(psf, stored.meta["aim"], _heading(stored, source), stored.accuracy)
 
 

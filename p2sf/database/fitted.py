@@ -9,7 +9,7 @@ sensor, the same for all fields: in the axes of each field, which rotate with it
 smooth about the axis. The fit of a source follows by rotating the polynomials (`turned_fit`).
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from time import perf_counter
 
@@ -102,7 +102,7 @@ class FittedDatabase:
         pixel_um = pixel_um or float(suitable_pixel_um(six, pixels))
         window = pixels, pixel_um
         psf = psf_of_fit(found, source.wavelength_um, window, "settled", started)
-        return replace(psf, predicted_error=None)
+        return psf.with_figures(predicted_error=None)
 
     def rendered(
         self, points: Points, sampling: Sampling, dtype: DTypeLike = np.float32, threads: int | None = None

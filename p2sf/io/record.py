@@ -15,14 +15,13 @@ from p2sf.lens.lens import Lens
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import Stop, f_number
 from p2sf.psf.record import true_of_all
-from p2sf.psf.result import Psf
+from p2sf.psf.result import FIGURES, OWN, Figures, Psf
 from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.raytrace.focusing import focused_vergence
 from p2sf.setting import Setup
 
 FORMER = {"tolerance": "error"}
 """Fields of files before 0.3 by their names today."""
-FIELDS = frozenset(each.name for each in fields(Psf))
 MAPS = ("phase_map", "amplitude_map")
 RECORD = "p2sf-record"
 """The name of the text in a formed picture that says what it is of."""
@@ -121,7 +120,7 @@ def with_facts(psf: Psf, meta: Mapping[str, Any]) -> dict:
 def psf_of_file(values: np.ndarray, meta: dict) -> Psf:
     """Return the PSF of a file's samples and record; KeyError or TypeError where that is not of a PSF."""
     provenance = {name: value for name, value in meta.items() if name not in OF_THE_FILE}
-    return psf_from(values, meta["psf"]).with_fields(provenance=provenance)
+    return psf_from(values, meta["psf"]).with_figures(provenance=provenance)
 
 
 def psf_from(values: np.ndarray, known: dict) -> Psf:
@@ -129,7 +128,9 @@ def psf_from(values: np.ndarray, known: dict) -> Psf:
     peak = known.get("peak_um")
     read = {"sampling": Message(str(known.get("sampling", ""))), "peak_um": peak and tuple(peak)}
     known = {FORMER.get(name, name): value for name, value in known.items()}
-    return Psf(values, **{name: value for name, value in (known | read).items() if name in FIELDS})
+    known |= read
+    figures = Figures(**{name: known[name] for name in FIGURES if name in known})
+    return Psf(values, figures=figures, **{name: known[name] for name in OWN if name in known})
 
 
 def caption(meta: dict) -> str:

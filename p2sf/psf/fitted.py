@@ -1,6 +1,7 @@
 """The `fitted` method: a PSF from some tens of numbers, fitted to some tens of rays (handbook 5.3)."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from time import perf_counter
 
@@ -11,7 +12,7 @@ from p2sf.errors import SamplingError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
-from p2sf.psf.picture import Origin, Window, psf_of_waves, resolved
+from p2sf.psf.picture import Window, psf_of_waves, resolved
 from p2sf.psf.prediction import EDGE_ERROR, predicted_error
 from p2sf.psf.result import Psf
 from p2sf.psf.sums.plane_waves import Counts, Waves, counts_for, disc_words, pupil_amplitude, window_reach_um
@@ -65,14 +66,19 @@ def psf_of_fit(
     ``nodes_of``: the nodes of (radial, angular) counts where rims end the pupil, which no polynomial knows.
     """
     counts = counts_of(found, window_reach_um(*window), quality)
-    sampling = nodes_in_words(counts, quality)
-    tolerance = SETTLED_TOLERANCE if quality == "settled" else None
-    error = predicted_error(found.error_waves, "fitted") + EDGE_ERROR * (nodes_of is not None)
-    made = Origin("fitted", found.numbers, found.rays, sampling, started, tolerance, error)
-    blur = masked_blur(found, nodes_of) if resolved(found.steepness.spread, window[1]) else None
     waves = fitted_waves(found, counts, window_reach_um(*window), nodes_of=nodes_of)
+    light = partial(masked_blur, found, nodes_of) if resolved(found.steepness.spread, window[1]) else None
     reaching = partial(waves_reaching, found, nodes_of=nodes_of)
-    return psf_of_waves(waves, window, wavelength_um, blur, made, reaching, quality)
+    psf = psf_of_waves(waves, window, wavelength_um, "fitted", light, reaching, quality)
+    error = predicted_error(found.error_waves, "fitted") + EDGE_ERROR * (nodes_of is not None)
+    return replace(
+        psf.with_figures(predicted_error=error),
+        numbers=found.numbers,
+        rays=found.rays,
+        sampling=nodes_in_words(counts, quality),
+        error=SETTLED_TOLERANCE if quality == "settled" else None,
+        seconds=perf_counter() - started,
+    )
 
 
 def counts_of(found: FittedPencil, reach_um: float, quality: str = "settled") -> Counts:

@@ -1,6 +1,7 @@
 """The PSF of a measured or imported wavefront map."""
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import sqrt
 from time import perf_counter
@@ -16,8 +17,8 @@ from p2sf.messages import Message
 from p2sf.parameters import check_positive
 from p2sf.psf import pixel_integrals
 from p2sf.psf.opd_array import opd_intensity
-from p2sf.psf.peak import peak_on_demand
-from p2sf.psf.picture import Origin, psf_from_intensity, resolved
+from p2sf.psf.peak import Peak, peak_of
+from p2sf.psf.picture import psf_of_intensity, resolved
 from p2sf.psf.result import Psf, warn_of_window
 from p2sf.psf.seidel import check_samples
 from p2sf.psf.sums.plane_waves import Waves
@@ -94,7 +95,7 @@ def psf_of_opd(
     pupil = _Pupil(opd, clear, power / clear.sum() ** 2, na, wavelength_nm / NM_PER_UM)
     psf = pixel_integrals.integrate(pupil.psf, pixels, pitch, critical_um, integrated)
     given = {"cells": len(opd), "na": na, "wavelength_nm": wavelength_nm}
-    return warn_of_window(psf.with_fields(provenance={"wavefront": plain(given)}), 5)
+    return warn_of_window(psf.with_figures(provenance={"wavefront": plain(given)}), 5)
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,10 +118,17 @@ class _Pupil:
             frequency, axis = cycles * centres(size), centred_axis(pixels)
             field = matrix_dft(clear * np.exp(2j * np.pi * opd), frequency, frequency, axis, axis)
             intensity = np.abs(field / clear.sum()) ** 2
-        light = self.light * (size / (2 * spread)) ** 2 if resolved(spread, pixel_um) else None
-        made = Origin("opd", int(np.count_nonzero(clear)), 0, Message("{size} × {size} cells", size=size), start)
-        peak = peak_on_demand(intensity, pixel_um, self.waves, lambda _: None)
-        return psf_from_intensity(intensity, pixel_um, self.wavelength_um, light, made, peak)
+        light = (lambda: self.light * (size / (2 * spread)) ** 2) if resolved(spread, pixel_um) else None
+        psf = psf_of_intensity(intensity, pixel_um, self.wavelength_um, "opd", light, self._peak(intensity, pixel_um))
+        return replace(
+            psf,
+            numbers=int(np.count_nonzero(clear)),
+            sampling=Message("{size} × {size} cells", size=size),
+            seconds=perf_counter() - start,
+        )
+
+    def _peak(self, intensity: np.ndarray, pixel_um: float) -> Callable[[], Peak]:
+        return lambda: peak_of(intensity, pixel_um, self.waves, lambda _: None)
 
     @cached_property
     def waves(self) -> Waves:

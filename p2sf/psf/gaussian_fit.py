@@ -43,7 +43,12 @@ def gaussian_psf(reference: Psf) -> Psf:
         reference,
         values=values,
         method="gaussian",
-        strehl=None,  # a fit has no pupil, and if narrower than the reference it would peak above 1
+        figures=replace(
+            reference.figures,
+            rivals=0,
+            strehl=None,  # a fit has no pupil, and if narrower than the reference it would peak above 1
+            predicted_error=1 - r_squared(values, wanted),  # measured, since the reference is at hand
+        ),
         numbers=3,
         rays=0,
         sampling=Message(
@@ -54,7 +59,6 @@ def gaussian_psf(reference: Psf) -> Psf:
         ),
         seconds=perf_counter() - started,
         error=None,
-        predicted_error=1 - r_squared(values, wanted),  # measured, since the reference is at hand
     )
 
 

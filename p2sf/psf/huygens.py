@@ -21,8 +21,8 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.psf.compare import r_squared
-from p2sf.psf.peak import peak_on_demand
-from p2sf.psf.picture import Origin, Window, psf_from_intensity, resolved
+from p2sf.psf.peak import peak_of
+from p2sf.psf.picture import Window, psf_of_intensity, resolved
 from p2sf.psf.prediction import CAUTION, EDGE_ERROR, TRACED_ERROR
 from p2sf.psf.result import Psf
 from p2sf.psf.smooth_pupil import (
@@ -124,48 +124,58 @@ def sum_rays(
     refused. `Cancelled` where the watch says so.
     """
     started, watch = perf_counter(), watch or Watch()
-    pixel_um, lens, source = window[1], pupil.lens, pupil.source
+    agreed: Message | None
     if rtol is None:
-        found, axis = one_pass(pupil, window, watch), centred_axis(*window)
-        dtype = np.float64 if pupil.sphere and quality == "settled" else np.float32
-        intensity = found.waves.intensity(axis, axis, dtype)
+        found, intensity, own, error = _sum_once(pupil, window, watch, quality)
+        rays = found.traced
         single, double = Message("one pass in float32"), Message("one pass in float64")
-        sampling = sampling_of(pupil, found, double if dtype == np.float64 else single)
-        whole = TRACED_ERROR if pupil.sphere else SETTLED_TOLERANCE**2
-        error = EDGE_ERROR if pupil.clip or not all_reach(lens, source) else whole
-        own = SETTLED_TOLERANCE if dtype == np.float64 else None
-        made = Origin(pupil.method, 0, found.traced, sampling, started, own, error)
+        agreed = double if intensity.dtype == np.float64 else single
     else:
-        found, intensity, reached, rays = _settle(pupil, window, rtol, watch)
-        short = Message("not converged: agrees to {reached:.1e} only", reached=reached)
-        sampling = sampling_of(pupil, found, None if reached <= rtol else short)
-        made = Origin(pupil.method, 0, rays, sampling, started, reached, reached**2)
-    made = _with_waves_error(made, found.waves, intensity, centred_axis(*window))
+        found, intensity, own, rays = _settle(pupil, window, rtol, watch)
+        error = own**2
+        agreed = None if own <= rtol else Message("not converged: agrees to {reached:.1e} only", reached=own)
+    own, error = _with_waves_error(own, error, found.waves, intensity, centred_axis(*window))
     finest = found.waves.spread / (1 if pupil.sphere is None else FRINGES_OF_SPHERES)
-    peak = peak_on_demand(intensity, pixel_um, found.waves, partial(waves_reaching, pupil), quality)
-    psf = psf_from_intensity(intensity, pixel_um, source.wavelength_um, None, made, peak)
-    return psf.with_fields(energy=partial(_share_of_light, pupil, psf)) if resolved(finest, pixel_um) else psf
+    light = partial(blur_um2, pupil) if resolved(finest, window[1]) else None
+    peak = partial(peak_of, intensity, window[1], found.waves, partial(waves_reaching, pupil), quality)
+    psf = psf_of_intensity(intensity, window[1], pupil.source.wavelength_um, pupil.method, light, peak)
+    return replace(
+        psf.with_figures(predicted_error=error),
+        rays=rays,
+        sampling=sampling_of(pupil, found, agreed),
+        error=own,
+        seconds=perf_counter() - started,
+    )
 
 
-def _share_of_light(pupil: RayPupil, psf: Psf) -> float | None:
-    """Return the share of light in the window of a PSF that resolves it; None where no area of the rays tells it."""
-    blur, total = blur_um2(pupil), psf.sum_over_peak
-    return None if blur is None or total is None else float(total) * psf.pixel_um**2 / blur
+def _sum_once(
+    pupil: RayPupil, window: Window, watch: "Watch", quality: str
+) -> tuple[RayWaves, np.ndarray, float | None, float]:
+    """Return (waves, their intensity, its relative L2 error if promised, predicted 1 − R²) of one pass."""
+    found, axis = one_pass(pupil, window, watch), centred_axis(*window)
+    double = bool(pupil.sphere) and quality == "settled"
+    intensity = found.waves.intensity(axis, axis, np.float64 if double else np.float32)
+    whole = TRACED_ERROR if pupil.sphere else SETTLED_TOLERANCE**2
+    error = EDGE_ERROR if pupil.clip or not all_reach(pupil.lens, pupil.source) else whole
+    return found, intensity, SETTLED_TOLERANCE if double else None, error
 
 
-def _with_waves_error(made: Origin, waves: Waves, intensity: np.ndarray, axis: np.ndarray) -> Origin:
-    """Return the origin of a picture of spherical waves with what their sum left out, and what scalar waves leave open.
+def _with_waves_error(
+    own: float | None, error: float, waves: Waves, intensity: np.ndarray, axis: np.ndarray
+) -> tuple[float | None, float]:
+    """Return relative L2 and 1 − R² of a sum with what spherical waves left out of it, and scalar waves leave open.
 
     Kirchhoff's integral with and without its obliquity, the cosine of the angle to the chief ray, differ by more than
     other errors where the window is as wide as the pupil is far.
     """
-    if not isinstance(waves, SphericalWaves) or made.predicted_error is None:
-        return made
+    if not isinstance(waves, SphericalWaves):
+        return own, error
     missed = OF_FIELD * (waves.skeleton(axis, axis, intensity.dtype).missed or 0.0)
     other = intensity * waves.obliquity(axis, axis) ** 2
     oblique = max(0.0, *(1 - r_squared(*pair) for pair in ((intensity, other), (other, intensity))))
-    error = None if made.error is None else float(np.hypot(made.error, missed + np.sqrt(oblique) * (oblique > CAUTION)))
-    return replace(made, error=error, predicted_error=made.predicted_error + missed**2 + oblique)
+    if own is not None:
+        own = float(np.hypot(own, missed + np.sqrt(oblique) * (oblique > CAUTION)))
+    return own, error + missed**2 + oblique
 
 
 def blur_um2(pupil: RayPupil) -> float | None:

@@ -73,9 +73,9 @@ from p2sf.threads import one_blas_thread
 AUTO = "auto"
 BELOW_ONE = 1 - 2.0**-53  # the largest R² that can be required of a choice
 PITCH_RINGS = 8  # of rays, to estimate the extent of the light
-AUTO_SECONDS = 1.25  # that `auto` may take for a sum by its estimate: light per pixel takes two, 5 s with all else
+AUTO_SECONDS = 1.0  # that `auto` may take for a sum by its estimate: light per pixel takes two, 5 s with all else
 FIELD_SHARE = 0.01  # of the root of the 1 − R² allowed, that a sum of spherical waves may leave of the field
-PLANE_SHARE = 0.5  # of the allowed error that plane waves may use up: spherical ones take fifty times as long as a fit
+PLANE_SHARE = 0.9  # of the allowed error that plane waves may use up: spherical ones take fifty times as long as a fit
 PLANE_NODES = 2.0  # times those of spherical waves, more than plane waves of the same blur take
 COMPARED = 2.0  # times their comparison, which holds for 99.7 % of states (python -m tests.long.spherical_prediction)
 ROOM = 1.05  # times the flatness of a first picture, since a better one differs from it
@@ -455,7 +455,7 @@ def psf_of(asked: PsfRequest, cancelled: Cancelled | None = None) -> Psf:
     if asked.choice is not None:
         psf = _with_promise(psf, asked.choice, 1 - asked.options.min_r2)
     number, error = (partial(_or_none, figure, asked) for figure in (_fresnel_number, _plane_wave_error))
-    return psf.with_fields(fresnel_number=number, plane_wave_error=error)
+    return psf.with_figures(fresnel_number=number, plane_wave_error=error)
 
 
 def _with_promise(psf: Psf, choice: Choice, asked_error: float) -> Psf:
@@ -466,11 +466,10 @@ def _with_promise(psf: Psf, choice: Choice, asked_error: float) -> Psf:
         if choice.method != SPHERICAL.name and choice.plane_wave_error is not None:
             error += choice.plane_wave_error * max(1.0, flatness / choice.flatness)
     if error is None or psf.error is None or error <= asked_error:
-        return psf.with_fields(predicted_error=error, asked_error=asked_error)
+        return replace(psf.with_figures(predicted_error=error), asked_error=asked_error)
     # Where the promise is not kept, the error of the sum is the smaller part of what the picture misses.
-    return psf.with_fields(
-        predicted_error=error, error=hypot(psf.error, (error / flatness) ** 0.5), asked_error=asked_error
-    )
+    own = hypot(psf.error, (error / flatness) ** 0.5)
+    return replace(psf.with_figures(predicted_error=error), error=own, asked_error=asked_error)
 
 
 def _or_none(figure: Callable[[PsfRequest], float], asked: PsfRequest) -> float | None:
@@ -498,16 +497,23 @@ def _by_six(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
     if nodes_of:
         check_image(c)
         psf = psf_of_fit(as_fit(c, mask), source.wavelength_um, asked.window, asked.options.quality, started, nodes_of)
-        psf = psf.with_fields(method="seidel", numbers=6)
+        psf = replace(psf, method="seidel", numbers=6)
     else:
         psf = seidel_psf(c, *asked.window, asked.options.quality, mask=mask)
     if asked.by_hand:
         return psf
-    psf = psf.with_fields(predicted_error=seidel_error(lens, source, c) + EDGE_ERROR * bool(nodes_of))
+    psf = psf.with_figures(predicted_error=partial(_error_of_six, asked, c))
     straight = Message(
         "{sampling}; the aligned lens, without its tilts, decentres and irregularities", sampling=psf.sampling
     )
-    return psf.with_fields(sampling=straight) if lens.misaligned else psf
+    return replace(psf, sampling=straight) if lens.misaligned else psf
+
+
+def _error_of_six(asked: PsfRequest, c: Coefficients) -> float:
+    """Return the predicted 1 − R² of six coefficients, which `choose` may have found already."""
+    known = None if asked.choice is None else asked.choice.seidel_error
+    found = seidel_error(asked.lens, asked.source, c) if known is None else known
+    return found + EDGE_ERROR * asked.options.clip
 
 
 def _nodes_within_rims(asked: PsfRequest) -> NodesOf | None:
@@ -522,7 +528,7 @@ def _by_fit(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
         found = fit(asked.lens, asked.source, asked.numbers, residual_waves=residual_for(asked.options.min_r2))
     wavelength, quality = asked.source.wavelength_um, asked.options.quality
     psf = psf_of_fit(found, wavelength, asked.window, quality, started, _nodes_within_rims(asked))
-    return psf.with_fields(energy=partial(_share_of_rays, psf, asked))
+    return psf if quality == "preview" else psf.with_figures(energy=partial(_share_of_rays, psf, asked))
 
 
 def _share_of_rays(psf: Psf, asked: PsfRequest) -> float | None:

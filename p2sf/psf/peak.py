@@ -1,19 +1,14 @@
 """The peak of a continuous picture between its samples, and so the Strehl ratio for any pixel and window.
 
-The intensity holds no frequency above 2s, s being the highest of the pupil's, and is not negative. If M is its maximum,
-it is at least M·cos²(2πs·d) at a distance d from there, d ≤ 1/(4s), since a function bounded by 1 follows a cosine at
-the fastest (Duffin & Schaeffer 1938, of 2I/M − 1). So a sample bounds the picture around it, and Newton's method starts
-from the local maxima of the samples, highest first, until no other can lead higher. The search is complete except for
-four savings: it stays inside a window with a dark border (DARK), tries at most MOST_CLIMBS maxima, and fewer if a
-climb is expensive (MOST_TERMS), or none of very many waves (MANY_WAVES).
+The intensity holds no frequency above 2s, s being the highest of the pupil's. Samples up to 1/(4s) apart determine it,
+and it is interpolated about each of their maxima (`_tops`); Newton's method on the sum itself goes on from the highest.
+Where the window does not hold the whole blur, or samples are farther apart, those of a coarse sum over the blur serve.
 """
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from contextvars import ContextVar
-from dataclasses import dataclass
-from functools import cache, partial
-from math import ceil, cos, hypot, pi, sqrt
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from math import ceil, hypot, sqrt
 
 import numpy as np
 
@@ -21,60 +16,38 @@ from p2sf.conventions import centred_axis
 from p2sf.psf.sums.plane_waves import Waves
 from p2sf.threads import one_blas_thread
 
-FINE = 6  # samples per period of the pupil's highest frequency on a separate grid for the search
-ENOUGH_SAMPLES = 4  # of them that suffice if the samples of the picture are used instead
-MOST_SAMPLES = 512  # along a side of that grid
+FINE = 5  # samples per period of the pupil's highest frequency on a separate grid for the search
+ENOUGH_SAMPLES = 4  # of them that determine the picture
+MOST_SAMPLES = 1024  # along a side of that grid
 BORDER = 1.5  # periods around the farthest ray where the peak may be
 DARK = 0.02  # of the brightest sample: a window with so dark a border contains the blur
-MOST_CLIMBS = 16
-MOST_TERMS = 2**17  # waves times climbs, after the first: some tens of milliseconds
+TAPS, WINDOWING = 8, 6.0  # samples to either side that interpolate, and the shape of the Kaiser window over them
+OFFSETS = np.linspace(-0.75, 0.75, 13)  # of a sample's spacing about each maximum of the samples
+LOWEST = 0.5  # of the brightest sample: the lowest maximum of samples that can belong to the peak (cos² of π/4)
+MOST_MAXIMA = 256  # that are interpolated
+TOO_CLOSE = 2e-3  # of the highest: maxima that interpolation, good to 5e-4, and rounding do not tell apart
+MOST_CLIMBS = 4  # from those
 MOST_IN_PREVIEW = 2**12  # most waves for a climb in a preview, which otherwise takes its best sample
 CLIMB_STEPS = 12  # of Newton's method
 MOST_WHILE_CLIMBING = 2**22  # waves times steps, beyond which fewer steps have to do: a second for all
 MANY_WAVES = 2**14  # from which on plane ones say where to climb: of a small Fresnel number there are fewer
 SEARCH_SECONDS = 1.0  # estimated, that a sum of fewer spherical ones may take to say so
-ENOUGH = {"preview": 1e-3, "settled": 1e-6}  # of the peak: the next step gains about the square of it
+ENOUGH = {"preview": 1e-3, "settled": 1e-4}  # of the peak: the next step gains about the square of it
 ROUNDING = 1e-9
-_later: ContextVar[bool] = ContextVar("later", default=False)
-
-
-@contextmanager
-def peaks_on_demand() -> Iterator[None]:
-    """Defer the search for the peaks of PSFs made within until they are read: it takes half of their time."""
-    before = _later.set(True)
-    try:
-        yield
-    finally:
-        _later.reset(before)
-
-
-def look_later() -> bool:
-    """Return whether this is within `peaks_on_demand`."""
-    return _later.get()
+MIRRORED = 4e-6  # of the brightest sample, by which mirror images in float32 differ
 
 
 @dataclass(frozen=True)
 class Peak:
-    """The largest intensity of a continuous picture, and where it is, µm from the chief ray."""
+    """The largest intensity of a continuous picture, and where it is, µm from the chief ray.
+
+    ``rivals``: other maxima as high to TOO_CLOSE, mirror images not counted: of so many one might be the higher.
+    """
 
     value: float
     x_um: float
     y_um: float
-
-
-def peak_on_demand(
-    intensity: np.ndarray,
-    pixel_um: float,
-    waves: Waves,
-    reaching: Callable[[float], Waves | None],
-    quality: str = "settled",
-) -> Callable[[], Peak]:
-    """Return a function that returns `peak_of`; for a "preview", or if `look_later`, it searches when called."""
-    find = partial(peak_of, intensity, pixel_um, waves, reaching, quality)
-    if look_later() or (quality == "preview" and waves.fx.size <= MOST_IN_PREVIEW):
-        return cache(find)
-    found = find()
-    return lambda: found
+    rivals: int = 0
 
 
 @one_blas_thread
@@ -99,8 +72,8 @@ def peak_of(
         return climb(waves, brightest.x_um, brightest.y_um, quality) if few else brightest
     half = waves.blur_um + BORDER / waves.spread
     held = half <= -axis[0] or _border(intensity) < DARK * intensity.max()
-    if held and pixel_um * waves.spread * ENOUGH_SAMPLES <= 1 + ROUNDING:
-        return _highest(waves, _candidates(intensity, axis, waves.spread))
+    if held and _determined(pixel_um, waves.spread):
+        return _highest(waves, _tops(intensity, axis, waves.spread))
     wide = waves if hypot(half, half) <= waves.reach_um else reaching(hypot(half, half))
     if wide is None:
         wide, half = waves, waves.reach_um / sqrt(2)
@@ -109,29 +82,46 @@ def peak_of(
     side = min(MOST_SAMPLES, ceil(2 * half * FINE * waves.spread))
     grid = centred_axis(side, 2 * half / side)
     where = wide.plane if wide.fx.size > MANY_WAVES else wide.within(SEARCH_SECONDS)
-    starts = _candidates(where.intensity(grid, grid, np.float32), grid, waves.spread)
-    own = brightest.value, brightest.x_um, brightest.y_um
-    return _highest(wide, [own, *starts] if own[0] > starts[0][0] else starts)
+    tops = _tops(where.intensity(grid, grid, np.float32), grid, waves.spread)
+    return _highest(wide, [brightest, *tops] if brightest.value > tops[0].value else tops)
+
+
+def _determined(pitch_um: float, spread: float) -> bool:
+    """Return whether samples so far apart determine the picture."""
+    return pitch_um * spread * ENOUGH_SAMPLES <= 1 + ROUNDING
 
 
 def sampled_peak(intensity: np.ndarray, pixel_um: float) -> Peak:
     """Return the brightest of the samples (y, x) of a window."""
-    index = int(np.argmax(intensity))
-    return Peak(float(intensity.max()), *_place(intensity, centred_axis(intensity.shape[-1], pixel_um), index))
+    axis = centred_axis(intensity.shape[-1], pixel_um)
+    row, column = divmod(int(np.argmax(intensity)), intensity.shape[-1])
+    return Peak(float(intensity.max()), float(axis[column]), float(axis[row]))
 
 
-def _place(intensity: np.ndarray, axis: np.ndarray, index: int) -> tuple[float, float]:
-    row, column = divmod(index, intensity.shape[-1])
-    return float(axis[column]), float(axis[row])
+def _tops(intensity: np.ndarray, axis: np.ndarray, spread: float) -> list[Peak]:
+    """Return the picture's maxima near those of its samples (y, x), highest first, to some 5e-4 of the highest.
+
+    Where samples do not determine the picture they are those of the samples. One of two mirror images is left out.
+    """
+    row, column = _maxima(intensity)
+    value, x, y = intensity[row, column].astype(float), axis[column], axis[row]
+    if axis.size > 1 and _determined(axis[1] - axis[0], spread):
+        value, aside, up = _interpolated(intensity, row, column)
+        x, y = x + (axis[1] - axis[0]) * aside, y + (axis[1] - axis[0]) * up
+    order = np.argsort(value)[::-1]
+    return [Peak(float(value[i]), float(x[i]), float(y[i])) for i in order]
 
 
-def _candidates(intensity: np.ndarray, axis: np.ndarray, spread: float) -> list[tuple[float, float, float]]:
-    """Return the bound of a maximum about a sample, x and y, of the samples near which the highest one can be."""
-    away = min((axis[1] - axis[0]) / sqrt(2), 1 / (8 * spread)) if axis.size > 1 else 0.0
-    least = cos(2 * pi * spread * away) ** 2
-    indices = np.flatnonzero((intensity == _brightest_about(intensity)) & (intensity >= least * intensity.max()))
-    indices = indices[np.argsort(_parabola_tops(intensity, indices))[::-1]]
-    return [(float(intensity.ravel()[i]) / least, *_place(intensity, axis, int(i))) for i in indices[:MOST_CLIMBS]]
+def _maxima(intensity: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return rows and columns of the samples that no neighbour exceeds, of those that may be near the peak."""
+    flat = np.flatnonzero((intensity == _brightest_about(intensity)) & (intensity >= LOWEST * intensity.max()))
+    flat = flat[np.argsort(intensity.ravel()[flat])[::-1][:MOST_MAXIMA]]
+    row, column = np.divmod(flat, intensity.shape[-1])
+    across = 2 * (intensity.shape[-1] // 2) - column
+    there = np.minimum(across, intensity.shape[-1] - 1)
+    twin = np.abs(intensity[row, there] - intensity[row, column]) <= MIRRORED * intensity.max()
+    kept = ~(twin & (there == across) & (column < across))
+    return row[kept], column[kept]
 
 
 def _brightest_about(intensity: np.ndarray) -> np.ndarray:
@@ -149,36 +139,50 @@ def _border(intensity: np.ndarray) -> float:
     return max(float(line.max()) for line in (intensity[0], intensity[-1], intensity[:, 0], intensity[:, -1]))
 
 
-def _parabola_tops(intensity: np.ndarray, indices: np.ndarray) -> np.ndarray:
-    """Return the tops of parabolas through samples and their neighbours; samples on the border are unchanged.
+def _interpolated(
+    intensity: np.ndarray, row: np.ndarray, column: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the tops of the picture about samples, and their offsets in x and y, in spacings of the samples."""
+    near = np.arange(-TAPS, TAPS + 1)
+    wide = np.pad(intensity, TAPS)
+    patches = wide[(row[:, None] + TAPS + near)[:, :, None], (column[:, None] + TAPS + near)[:, None, :]]
+    fine = _kernel() @ patches @ _kernel().T
+    count, number = np.arange(row.size), OFFSETS.size
+    at = fine[:, 1:-1, 1:-1].reshape(row.size, -1).argmax(1)
+    up, aside = (k + 1 for k in np.divmod(at, number - 2))
+    value = middle = fine[count, up, aside]
+    step, places = OFFSETS[1] - OFFSETS[0], []
+    for before, after in (
+        (fine[count, up, aside - 1], fine[count, up, aside + 1]),
+        (fine[count, up - 1, aside], fine[count, up + 1, aside]),
+    ):
+        bend = np.minimum(before + after - 2 * middle, -ROUNDING * float(intensity.max()))
+        part = np.clip((before - after) / (2 * bend), -0.5, 0.5)
+        value = value - (before - after) * part / 4
+        places.append(step * part)
+    return value, OFFSETS[aside] + places[0], OFFSETS[up] + places[1]
 
-    ``indices``: (n,) flat ones.
+
+@lru_cache(maxsize=1)
+def _kernel() -> np.ndarray:
+    """Return the weights of samples for a band-limited function at offsets, (offsets, 2·TAPS + 1): a windowed sinc.
+
+    Source: Kaiser & Schafer 1980, IEEE Trans. Acoust. Speech Signal Process. 28, 105.
     """
-    values, (rows, columns) = intensity.ravel(), intensity.shape
-    row, column = np.divmod(indices, columns)
-    inside = (0 < row) & (row < rows - 1) & (0 < column) & (column < columns - 1)
-    tops: np.ndarray = values[indices].astype(float)
-    inner, flat = indices[inside], -ROUNDING * float(intensity.max())
-    middle = tops[inside]
-    for step in (columns, 1):
-        before, after = values[inner - step].astype(float), values[inner + step].astype(float)
-        bend = np.minimum(before + after - 2 * middle, flat)
-        tops[inside] -= (after - before) ** 2 / (8 * bend)
-    return tops
+    away = OFFSETS[:, None] - np.arange(-TAPS, TAPS + 1)
+    window = np.i0(WINDOWING * np.sqrt(np.maximum(0, 1 - (away / (TAPS + 1)) ** 2))) / np.i0(WINDOWING)
+    weights: np.ndarray = np.sinc(away) * window
+    return weights
 
 
-def _highest(waves: Waves, starts: list[tuple[float, float, float]]) -> Peak:
-    """Return the highest peak by climbing from each point that can lead higher, the most promising first.
-
-    With many waves only the most promising few points are tried.
-    """
-    highest = climb(waves, *starts[0][1:])
-    for bound, x, y in starts[1 : max(1, MOST_TERMS // waves.fx.size)]:
-        if bound <= highest.value:
-            continue
-        found = climb(waves, x, y)
-        highest = max(highest, found, key=lambda peak: peak.value)
-    return highest
+def _highest(waves: Waves, tops: list[Peak]) -> Peak:
+    """Return the highest peak by climbing from the highest top, and from others that may be as high."""
+    close = [top for top in tops if top.value >= tops[0].value * (1 - TOO_CLOSE)]
+    found = [climb(waves, top.x_um, top.y_um) for top in close[:MOST_CLIMBS]]
+    highest = max(found, key=lambda peak: peak.value)
+    away = 1 / (8 * waves.spread)
+    same = sum(hypot(one.x_um - highest.x_um, one.y_um - highest.y_um) < away for one in found)
+    return replace(highest, rivals=len(close) - same)
 
 
 def climb(waves: Waves, x: float, y: float, quality: str = "settled") -> Peak:

@@ -5,7 +5,8 @@ Samples farther apart than λ/(4 NA) miss the rings between them and do not repr
 """
 
 from collections.abc import Callable
-from contextlib import nullcontext
+from dataclasses import replace
+from functools import partial
 from math import ceil, inf
 
 import numpy as np
@@ -16,8 +17,7 @@ from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.psf.huygens import FRINGES_OF_SPHERES
 from p2sf.psf.methods import AUTO, REFERENCE, SPHERICAL, USUAL, PsfOptions, method_of, render, whole_pixel_um
-from p2sf.psf.peak import peaks_on_demand
-from p2sf.psf.result import Psf
+from p2sf.psf.result import LEAST_LIGHT, Figure, Figures, Later, Psf
 from p2sf.psf.seidel import check_samples
 from p2sf.pupil.binning import bin_samples
 from p2sf.raytrace.exit_sphere import exit_sphere
@@ -93,7 +93,7 @@ def integrate(
 
     ``wanted``: light per pixel (True), samples (False) or, if None, light where the pitch exceeds ``finest_um`` and
     that takes at most LARGEST samples a side. Raises SamplingError if light is requested and takes more. If samples are
-    too far apart to give a share of the light, it is taken from the light per pixel.
+    too far apart to give a share of the light, it is taken from the light per pixel, when it is read.
     """
     check_samples(pixels, pixel_um)
     across = samples_across(pixels, pixel_um, finest_um, 0.0 if wanted else 1.0)
@@ -106,25 +106,37 @@ def integrate(
             most=LARGEST,
             parameter="integrated",
         )
-    points = render_at(pixels, pixel_um) if across == 1 or wanted is False else None
-    if points is not None and (across == 1 or points.energy is not None):
-        return points
-    with nullcontext() if points is None else peaks_on_demand():  # which the points have already
-        fine = render_at(fine_side(pixels, across), pixel_um / across)
+    if across == 1:
+        return render_at(pixels, pixel_um)
+    if wanted is False:
+        points = render_at(pixels, pixel_um)
+        if points.figures.energy is not None:
+            return points
+        later = Later(lambda: _light_on_pixels(render_at, pixels, pixel_um, across).energy, costly=True)
+        return points.with_figures(energy=later)
+    return _light_on_pixels(render_at, pixels, pixel_um, across)
+
+
+def _light_on_pixels(render_at: Callable[[int, float], Psf], pixels: int, pixel_um: float, across: int) -> Psf:
+    """Return the PSF as light per pixel, ``across`` samples along each side of it."""
+    fine = render_at(fine_side(pixels, across), pixel_um / across)
     light = light_per_pixel(fine.values, pixels, across)
     share = light.sum((-2, -1))  # of the light in the finer window, which may be a little larger
-    energy = None if fine.energy is None else fine.energy * (share if share.ndim else float(share))
-    if points is not None:
-        return points.with_fields(energy=energy)
-    return fine.with_fields(
+
+    return replace(
+        fine.with_figures(energy=partial(_part_of_light, fine.figures, share if share.ndim else float(share))),
         values=light / share[..., None, None],
         pixel_um=pixel_um,
-        energy=energy,
         sampling=Message("{sampling}; {across} × {across} samples per pixel", sampling=fine.sampling, across=across),
         error=None,
         integrated=True,
         sum_over_peak=None if fine.sum_over_peak is None else fine.sum_over_peak * share / across**2,
     )
+
+
+def _part_of_light(figures: Figures, share: float | np.ndarray) -> Figure:
+    energy: Figure = figures.value("energy")
+    return None if energy is None else energy * share
 
 
 def render_integrated(
@@ -155,7 +167,15 @@ def render_integrated(
         finest,
         wanted,
     )
-    return psf if psf.energy is not None else psf.with_fields(energy=light_of_rays(lens, source, psf, options.clip))
+    later, clip = psf.figures.energy, options.clip
+    unasked = later is None or (isinstance(later, Later) and later.costly)
+    if unasked and options.quality == "settled" and light_of_rays(lens, source, psf, clip) < LEAST_LIGHT:
+        return psf.with_figures(energy=_energy(lens, source, psf, clip))  # now, since it is worth a warning
+    return psf.with_figures(energy=Later(partial(_energy, lens, source, psf, clip), unasked))
+
+
+def _energy(lens: Lens, source: Source, psf: Psf, clip: bool) -> Figure:
+    return light_of_rays(lens, source, psf, clip) if psf.energy is None else psf.energy
 
 
 def light_of_rays(lens: Lens, source: Source, psf: Psf, clip: bool) -> float:

@@ -2,7 +2,7 @@
 
 import warnings
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, TypeVar, overload
@@ -30,42 +30,92 @@ IN_WINDOW = "light in the window"  # name of `Psf.energy` wherever it is shown, 
 
 Value = TypeVar("Value")
 Figure = float | np.ndarray | None
+Number = float | None
+Facts = Mapping[str, Any] | None
+Place = tuple[float, float] | np.ndarray | None
 
 
-class OnDemand(Generic[Value]):
-    """A field of `Psf`, None by default, that may be given as a function without arguments, called on first access.
+class Later(Generic[Value]):
+    """A value that is computed when it is first asked for, and once; the function is then let go.
 
-    During dragging few figures of a picture are shown, and some take as long as the picture.
+    ``costly``: as much as the picture, so that no warning asks for it.
     """
 
+    def __init__(self, compute: Callable[[], Value], costly: bool = False) -> None:
+        self._compute: Callable[[], Value] | None = compute
+        self._costly = costly
+
+    @property
+    def costly(self) -> bool:
+        """Return whether it is not computed yet, and costly."""
+        return self._costly and self._compute is not None
+
+    def __call__(self) -> Value:
+        """Return the value. Raises what its computation raises."""
+        compute = self._compute
+        if compute is not None:
+            self._value, self._compute = compute(), None
+        return self._value
+
+
+@dataclass(frozen=True, eq=False)
+class Figures:
+    """What is read off the pupil of a PSF, and its provenance: values, or functions that are called when first read.
+
+    During dragging few figures of a picture are shown, and some take as long as the picture. `Psf` describes them.
+    """
+
+    strehl: Figure | Callable[[], Figure] = None
+    peak_um: Place | Callable[[], Place] = None
+    rivals: int | np.ndarray | Callable[[], int | np.ndarray] = 0
+    energy: Figure | Callable[[], Figure] = None
+    predicted_error: Number | Callable[[], Number] = None
+    fresnel_number: Number | Callable[[], Number] = None
+    plane_wave_error: Number | Callable[[], Number] = None
+    provenance: Facts | Callable[[], Facts] = None
+
+    def __post_init__(self) -> None:
+        for name, value in vars(self).items():
+            if callable(value) and not isinstance(value, Later):
+                object.__setattr__(self, name, Later(value))
+
+    def value(self, name: str) -> Any:
+        """Return one of them, which is computed now if it was not before."""
+        found = getattr(self, name)
+        return found() if callable(found) else found
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Figures, tuple(self.value(each.name) for each in fields(self))
+
+
+UNKNOWN = Figures()
+
+
+class Read(Generic[Value]):
+    """An attribute of `Psf` that is one of its `Figures`, of the same name."""
+
     def __set_name__(self, owner: type, name: str) -> None:
-        self.name = f"_{name}"
+        self.name = name
 
     @overload
-    def __get__(self, psf: None, owner: type) -> None: ...
+    def __get__(self, psf: None, owner: type) -> "Read[Value]": ...
 
     @overload
-    def __get__(self, psf: object, owner: type) -> Value: ...
+    def __get__(self, psf: "Psf", owner: type) -> Value: ...
 
-    def __get__(self, psf: object | None, owner: type) -> Value | None:
+    def __get__(self, psf: "Psf | None", owner: type) -> "Value | Read[Value]":
         if psf is None:
-            return None
-        value = vars(psf)[self.name]
-        if callable(value):
-            value = vars(psf)[self.name] = value()
-        found: Value = value
+            return self
+        found: Value = psf.figures.value(self.name)
         return found
-
-    def __set__(self, psf: object, value: Value | Callable[[], Value]) -> None:
-        vars(psf)[self.name] = value
 
 
 @dataclass(frozen=True, eq=False)
 class Psf:
     """A point spread function, or a stack of them, and how it was computed.
 
-    A notebook shows it as a picture. ``strehl``, ``energy``, ``peak_um``, ``fresnel_number``, ``plane_wave_error`` and
-    ``provenance`` may be given as functions without arguments, which are called when the values are first read.
+    A notebook shows it as a picture. Its ``figures``, the attributes from ``strehl`` on, are read off the pupil that
+    it was made from when they are first asked for.
 
     Attributes
     ----------
@@ -78,12 +128,6 @@ class Psf:
         Wavelength, µm.
     method : str
         The method that computed it.
-    strehl : float or numpy.ndarray or None
-        Peak of the continuous picture, also between samples and not integrated over pixels, divided by the unaberrated
-        peak of the same pupil; None if the method has no pupil. It is sought wherever rays land, also outside the
-        window, unless that takes too many pupil samples: for a very wide blur only in the window.
-    energy : float or numpy.ndarray or None
-        Share of all light that falls into the window, although ``values`` have unit sum; None if unknown.
     numbers : int
         Number of coefficients that describe it.
     rays : int
@@ -94,25 +138,34 @@ class Psf:
         Computing time.
     error : float or None
         Bound on the relative L2 error of the method's own sum in the window; None if it promises none.
-    predicted_error : float or None
-        Predicted 1 − R² of the method against the reference, at these settings: due to its description of the pupil,
-        which ``error`` does not include. None if no rays were traced to predict it.
     azimuth_deg : float
         Direction on the sensor of the picture's +y axis, degrees from the sensor's +y towards its +x.
     integrated : bool
         Whether a sample is the light on a whole pixel; if not, it is the intensity at a point.
-    peak_um : tuple or numpy.ndarray or None
-        Position of that peak: x and y from the chief ray, µm; (…, 2) for a stack.
     sum_over_peak : float or numpy.ndarray or None
         Sum of the samples in units of the unaberrated peak.
+    asked_error : float or None
+        The 1 − R² that "auto" was asked to keep. Where ``predicted_error`` is above it, no method keeps it within some
+        seconds, and ``error`` bounds the relative L2 error of the picture, not of its sum alone.
+    strehl : float or numpy.ndarray or None
+        Peak of the continuous picture, also between samples and not integrated over pixels, divided by the unaberrated
+        peak of the same pupil; None if the method has no pupil. It is sought wherever rays land, also outside the
+        window, unless that takes too many pupil samples: for a very wide blur only in the window.
+    energy : float or numpy.ndarray or None
+        Share of all light that falls into the window, although ``values`` have unit sum; None if unknown.
+    peak_um : tuple or numpy.ndarray or None
+        Position of that peak: x and y from the chief ray, µm; (…, 2) for a stack.
+    rivals : int or numpy.ndarray
+        Number of other maxima within 0.2 % of that peak, mirror images not counted; where there are several, one of
+        them may be higher by some 1e-4.
+    predicted_error : float or None
+        Predicted 1 − R² of the method against the reference, at these settings: due to its description of the pupil,
+        which ``error`` does not include. None if no rays were traced to predict it.
     fresnel_number : float or None
         n'a²/(λz) of the exit pupil, of radius a at a distance z from the sensor; infinite of a pupil at infinity.
     plane_wave_error : float or None
         Predicted 1 − R² of plane waves, which every method but `spherical` sums, against spherical ones; None if not
         known. It is part of ``predicted_error`` only where "auto" chose the method.
-    asked_error : float or None
-        The 1 − R² that "auto" was asked to keep. Where ``predicted_error`` is above it, no method keeps it within some
-        seconds, and ``error`` bounds the relative L2 error of the picture, not of its sum alone.
     provenance : dict or None
         What it is of, as JSON has it: the lens with a hash, depth, field, wavelength, sensor, focus, f-number and mask.
     """
@@ -121,30 +174,29 @@ class Psf:
     pixel_um: float
     wavelength_um: float | np.ndarray
     method: str
-    strehl: OnDemand[Figure] = OnDemand()
-    energy: OnDemand[Figure] = OnDemand()
+    figures: Figures = UNKNOWN
     numbers: int = 0
     rays: int = 0
     sampling: Message = UNSTATED
     seconds: float = 0.0
     error: float | None = None
     azimuth_deg: float = 0.0
-    predicted_error: float | None = None
     integrated: bool = False
-    peak_um: OnDemand[tuple[float, float] | np.ndarray | None] = OnDemand()
     sum_over_peak: float | np.ndarray | None = None
-    fresnel_number: OnDemand[Figure] = OnDemand()
-    plane_wave_error: OnDemand[Figure] = OnDemand()
-    provenance: OnDemand[Mapping[str, Any] | None] = OnDemand()
     asked_error: float | None = None
 
-    def with_fields(self, **values: Any) -> "Psf":
-        """Return the same PSF with these fields replaced; unlike `replace` it does not evaluate deferred figures."""
-        own = {name.removeprefix("_"): value for name, value in vars(self).items()}
-        return Psf(**own | values)
+    strehl = Read[Figure]()
+    peak_um = Read[Place]()
+    rivals = Read[int | np.ndarray]()
+    energy = Read[Figure]()
+    predicted_error = Read[Number]()
+    fresnel_number = Read[Number]()
+    plane_wave_error = Read[Number]()
+    provenance = Read[Facts]()
 
-    def __reduce__(self) -> tuple[Any, ...]:
-        return Psf, tuple(getattr(self, field.name) for field in fields(self))
+    def with_figures(self, **figures: Any) -> "Psf":
+        """Return the same PSF with these of its `Figures` in place of its own; the others stay uncomputed."""
+        return replace(self, figures=replace(self.figures, **figures))
 
     @property
     def tolerance(self) -> float | None:
@@ -183,7 +235,7 @@ class Psf:
     @property
     def shortfall(self) -> Message | None:
         """Return that "auto" could not keep the R² that it was asked for within some seconds; None where it does."""
-        missed = self.predicted_error
+        missed = None if self.asked_error is None else self.predicted_error
         if self.asked_error is None or missed is None or missed <= self.asked_error:
             return None
         if missed >= 1:
@@ -215,7 +267,8 @@ class Psf:
 
     @property
     def _cut_off(self) -> Message | None:
-        least = 1.0 if self.energy is None or not np.size(self.energy) else float(np.min(self.energy))
+        unasked = isinstance(self.figures.energy, Later) and self.figures.energy.costly
+        least = 1.0 if unasked or self.energy is None or not np.size(self.energy) else float(np.min(self.energy))
         if least >= LEAST_LIGHT:
             return None
         return Message(
@@ -327,10 +380,14 @@ class Psf:
         return picture.getvalue()
 
 
+OWN = tuple(each.name for each in fields(Psf))
+FIGURES = tuple(each.name for each in fields(Figures))
+
+
 def facts(psf: Psf) -> dict[str, Any]:
     """Return what a PSF says about itself but its samples, as JSON can carry it; its azimuth where it has one."""
-    left_out = {"values", "provenance", *(() if psf.azimuth_deg else ("azimuth_deg",))}
-    known = {f.name: getattr(psf, f.name) for f in fields(psf) if f.name not in left_out}
+    left_out = {"values", "figures", "provenance", *(() if psf.azimuth_deg else ("azimuth_deg",))}
+    known = {name: getattr(psf, name) for name in (*OWN, *FIGURES) if name not in left_out}
     window = [psf.pixel_um * count for count in psf.values.shape[:-3:-1]]
     known |= {"sampling": str(psf.sampling), "window_um": window}
     return {name: plain(value) for name, value in known.items()}

@@ -1,6 +1,6 @@
 """The PSF of the six coefficients over a uniform circular pupil: the `seidel` method (handbook 4.1)."""
 
-from functools import cache, partial
+from functools import partial
 from math import isfinite, prod
 from time import perf_counter
 
@@ -13,8 +13,8 @@ from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import steepest_polar, steepest_slope, wavefront
 from p2sf.psf.fitted import MOST_FOR_PEAK, waves_reaching
-from p2sf.psf.peak import look_later, peak_of, sampled_peak
-from p2sf.psf.result import Psf
+from p2sf.psf.peak import peak_of, sampled_peak
+from p2sf.psf.result import Figures, Later, Psf
 from p2sf.psf.seidel_stack import SummedStack, as_fit, corner_reach, each_of, stack_of
 from p2sf.psf.sums.plane_waves import Waves, counts_for, pupil_amplitude, window_reach_um
 from p2sf.psf.sums.seidel_sum import wave_number
@@ -142,22 +142,24 @@ def _result(
         share = energy_fraction(coefficients, stack.total, pixel_um, throughput(mask).spreading)
         return float(share) if single and share is not None else share
 
-    peaks = cache(partial(_peaks, coefficients, stack, pixel_um, mask, quality))
-    if quality == "settled" and prod(stack.total.shape) <= MOST_SEARCHED and not look_later():
-        peaks()  # raised now, not on first access
+    peaks = Later(partial(_peaks, coefficients, stack, pixel_um, mask, quality))
+    figures = Figures(
+        strehl=lambda: float(peaks()[0]) if single else peaks()[0],
+        peak_um=lambda: (float(peaks()[1][0]), float(peaks()[1][1])) if single else peaks()[1],
+        rivals=lambda: int(peaks()[2]) if single else peaks()[2],
+        energy=energy,
+    )
     return Psf(
         values=stack.values,
         pixel_um=pixel_um,
         wavelength_um=float(wavelength) if np.ndim(wavelength) == 0 else wavelength,
         method="seidel",
-        strehl=lambda: float(peaks()[0]) if single else peaks()[0],
-        energy=energy,
+        figures=figures,
         numbers=6,
         rays=2,
         sampling=stack.sampling,
         seconds=perf_counter() - start,
         error=tolerance,
-        peak_um=lambda: (float(peaks()[1][0]), float(peaks()[1][1])) if single else peaks()[1],
         sum_over_peak=float(stack.total) if single else stack.total,
     )
 
@@ -165,8 +167,8 @@ def _result(
 @one_blas_thread
 def _peaks(
     coefficients: Coefficients, stack: SummedStack, pixel_um: float, mask: PupilMask, quality: str
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return the peaks of continuous pictures in units of the unaberrated peak, (…,), and their places, (…, 2) µm."""
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the peaks of continuous pictures in units of the unaberrated peak, their places, (…, 2) µm, and rivals."""
     shape, pixels = stack.values.shape[:-2], stack.values.shape[-1]
     planes, totals = stack.values.reshape(-1, pixels, pixels), np.ravel(stack.total)
     reach_um = window_reach_um(pixels, pixel_um)
@@ -179,9 +181,9 @@ def _peaks(
             peak = sampled_peak(plane * total, pixel_um)
         else:
             peak = peak_of(plane * total, pixel_um, waves, reaching, quality)
-        found.append((peak.value, peak.x_um, peak.y_um))
-    table = np.reshape(found, (*shape, 3))
-    return table[..., 0], table[..., 1:]
+        found.append((peak.value, peak.x_um, peak.y_um, peak.rivals))
+    table = np.reshape(found, (*shape, 4))
+    return table[..., 0], table[..., 1:3], table[..., 3].astype(int)
 
 
 def _waves_reaching(c: Coefficients, fitted: FittedPencil, reach_um: float) -> Waves | None:

@@ -5,6 +5,7 @@ by interpolation as many plane waves as blur and window require. Held-out rays o
 behind a mask, all rays are traced.
 """
 
+from dataclasses import replace
 from functools import partial
 from math import prod
 from time import perf_counter
@@ -22,7 +23,7 @@ from p2sf.psf.huygens import (
     sum_rays,
     waves_reaching,
 )
-from p2sf.psf.picture import Origin, psf_of_waves, resolved
+from p2sf.psf.picture import psf_of_waves, resolved
 from p2sf.psf.prediction import EDGE_ERROR, TRACED_ERROR
 from p2sf.psf.result import Psf
 from p2sf.psf.smooth_pupil import all_reach, interpolated_waves
@@ -61,23 +62,21 @@ def traced_psf(
     if smooth is None and settled and prod(counts) / 2 > watch.most:
         return _until_two_agree(pupil, window, settled, watch)
     rays = smooth or one_pass(pupil, window, watch)
-    precision = "float64" if settled else "float32"
-    made = Origin(
-        "traced",
-        0,
-        rays.traced,
-        Message("{nodes}, {precision}", nodes=sampling_of(pupil, rays, None), precision=precision),
-        started,
-        SETTLED_TOLERANCE if settled else None,
-        TRACED_ERROR,
-    )
-    blur = blur_um2(pupil) if resolved(rays.waves.spread, pixel_um) else None
+    light = partial(blur_um2, pupil) if resolved(rays.waves.spread, pixel_um) else None
     reaching = partial(waves_reaching, pupil)
-    return psf_of_waves(rays.waves, window, source.wavelength_um, blur, made, reaching, quality)
+    psf = psf_of_waves(rays.waves, window, source.wavelength_um, "traced", light, reaching, quality)
+    precision = "float64" if settled else "float32"
+    return replace(
+        psf.with_figures(predicted_error=TRACED_ERROR),
+        rays=rays.traced,
+        sampling=Message("{nodes}, {precision}", nodes=sampling_of(pupil, rays, None), precision=precision),
+        error=SETTLED_TOLERANCE if settled else None,
+        seconds=perf_counter() - started,
+    )
 
 
 def _until_two_agree(pupil: RayPupil, window: tuple[int, float], settled: bool, watch: Watch) -> Psf:
     """Return the PSF of rays that are added until two pictures agree, or, of a preview, of one pass."""
     found = sum_rays(pupil, window, EDGE_TOLERANCE if settled else None, watch)
     reached = 0.0 if found.error is None else found.error
-    return found.with_fields(method="traced", predicted_error=max(EDGE_ERROR, reached**2))
+    return replace(found.with_figures(predicted_error=max(EDGE_ERROR, reached**2)), method="traced")

@@ -201,7 +201,7 @@ def _mtf_error(found: np.ndarray, truth: np.ndarray) -> np.ndarray:
 
 def _radius_80(pictures: np.ndarray) -> np.ndarray:
     """Return the radius that holds 80 % of each window's light about its centroid, pixels, (n,)."""
-    return radius_of_energy(Psf(pictures, 1.0, 1.0, "", None), EIGHTY)
+    return radius_of_energy(Psf(pictures, 1.0, 1.0, ""), EIGHTY)
 
 
 def _words(space: LensSpace) -> SpaceWords:

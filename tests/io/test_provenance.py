@@ -5,6 +5,7 @@ import hashlib
 import io
 import json
 import pickle
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -92,7 +93,9 @@ def test_a_dataset_of_one_psf_has_its_record_and_its_energy(psf):
     assert data.attrs["predicted_error"] == psf.predicted_error
     far = CAMERA.psf(np.inf, pixels=8, method="seidel").to_xarray()
     assert far.attrs["depth_mm"] == np.inf
-    stack = psf.with_fields(values=np.stack([psf.values] * 2), energy=np.array([0.5, 0.6]), strehl=None, peak_um=None)
+    stack = replace(
+        psf.with_figures(energy=np.array([0.5, 0.6]), strehl=None, peak_um=None), values=np.stack([psf.values] * 2)
+    )
     assert stack.to_xarray()["energy"].dims == ("axis_0",)
 
 

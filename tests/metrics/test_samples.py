@@ -1,5 +1,6 @@
 """Figures of a PSF by its samples, and what its window may hide of them."""
 
+from dataclasses import replace
 from math import pi
 
 import numpy as np
@@ -73,7 +74,7 @@ def test_a_psf_is_an_array_a_picture_and_a_file(tmp_path):
 
 
 def test_a_stack_is_refused():
-    stack = AIRY.with_fields(values=np.stack([AIRY.values] * 2))
+    stack = replace(AIRY, values=np.stack([AIRY.values] * 2))
     for call in (stack.mtf, stack.encircled_energy, stack.line_spread):
         with pytest.raises(SamplingError):
             call()

@@ -2,7 +2,7 @@
 
 import pickle
 import tracemalloc
-from dataclasses import FrozenInstanceError
+from dataclasses import FrozenInstanceError, replace
 
 import numpy as np
 import pytest
@@ -17,7 +17,7 @@ from p2sf.psf import peak
 from p2sf.psf.huygens import huygens_psf, sum_rays
 from p2sf.psf.methods import render, whole_pixel_um
 from p2sf.psf.pixel_integrals import render_integrated
-from p2sf.psf.result import Psf
+from p2sf.psf.result import Figures, Psf
 from p2sf.psf.seidel import seidel_psf
 from p2sf.psf.spherical import spherical_pupil
 from p2sf.psf.sums.plane_waves import BLOCK, Waves
@@ -156,7 +156,7 @@ def test_figures_given_as_functions_are_asked_for_once_and_travel_as_numbers():
         calls.append(1)
         return 0.25
 
-    psf = Psf(np.full((4, 4), 1 / 16), 1.0, 0.5, "seidel", strehl, energy=0.5)
+    psf = Psf(np.full((4, 4), 1 / 16), 1.0, 0.5, "seidel", Figures(strehl, energy=0.5))
     assert not calls
     copy = pickle.loads(pickle.dumps(psf))
     assert (psf.strehl, copy.strehl, copy.energy, copy.peak_um, len(calls)) == (0.25, 0.25, 0.5, None, 1)
@@ -167,9 +167,38 @@ def test_figures_given_as_functions_are_asked_for_once_and_travel_as_numbers():
 def test_a_rendered_preview_looks_for_its_peak_when_that_is_read():
     source = Source(field_deg=(0.6, 0.8))  # which is given its azimuth, after its method its error
     psf = p2sf.render(find_lens("achromat_f6"), source, "seidel", quality="preview")
-    assert callable(vars(psf)["_peak_um"]) and psf.azimuth_deg and psf.predicted_error is not None
-    again = psf.with_fields(seconds=0.0)
+    assert callable(psf.figures.peak_um) and psf.azimuth_deg and psf.predicted_error is not None
+    again = replace(psf, seconds=0.0)
     assert again.strehl == psf.strehl and again.peak_um == psf.peak_um and again.values is psf.values
+
+
+@pytest.mark.parametrize("call", ["look up", "render", "sweep"])
+def test_nobody_pays_for_a_peak_that_is_not_read(call, monkeypatch):
+    lens = find_lens("achromat_f6")
+    database = p2sf.build_database(lens, [3000, 5000], [0, 1], [550, 600])
+    monkeypatch.setattr(peak, "climb", lambda *given: pytest.fail("a peak is sought"))
+    calls = {
+        "look up": lambda: database.psf(p2sf.Source(4000, field_deg=0.5), 32),
+        "render": lambda: p2sf.render(lens, p2sf.Source(field_deg=1), "huygens", pixels=32),
+        "sweep": lambda: p2sf.Camera(lens).sweep(field_deg=[0.0, 1.0]).psfs("traced", pixels=16, pixel_um=2.0),
+    }
+    assert calls[call]() is not None
+
+
+@pytest.mark.parametrize(("six", "alike"), [((0.0, 0.0, 2.0, 0.0, 0.0, -1.0), 3), ((0.0, 0.4, 0.0, 0.0, 0.0, 0.0), 0)])
+def test_it_says_how_many_maxima_are_as_high(six, alike):
+    """Astigmatism at medial focus has eight alike; of mirror images in x one counts."""
+    c, (xi, eta, share) = waves(*six), disc()
+    scale = -float(c.reduced_slope) / float(c.wavelength_um)
+    amplitude = share * np.exp(2j * np.pi * np.asarray(wavefront(c, xi, eta)))
+    dense = np.linspace(-12, 12, 481)
+    x, y = (np.exp(2j * np.pi * np.outer(dense, scale * k)) for k in (xi, eta))
+    light = np.abs((y * amplitude) @ x.T) ** 2
+    inner = light[1:-1, 1:-1]
+    about = np.max([light[1 + i : 480 + i, 1 + k : 480 + k] for i in (-1, 0, 1) for k in (-1, 0, 1) if i or k], axis=0)
+    column = np.nonzero((inner > about) & (inner > 0.998 * light.max()))[1]
+    assert sum(dense[1:-1][column] > -1e-9) == alike + 1
+    assert seidel_psf(c, 33, 1.7).rivals == alike
 
 
 def test_the_light_near_a_point_of_millions_of_waves_takes_little_memory():

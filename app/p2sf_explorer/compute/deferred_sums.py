@@ -19,6 +19,7 @@ from p2sf_explorer.state.state import State
 AT_ONCE_SECONDS = 0.04  # on a busy machine a few times that
 SOME_SECONDS = 3.0
 FEW_SAMPLES = 128
+SHOWN = ("strehl", "energy")  # of the figures of a PSF, whose search the worker spares the window
 KEPT = 8
 KEPT_BYTES = 2**25  # of all samples that are kept, 32 MB: four of the largest pictures in float64
 
@@ -67,7 +68,10 @@ class SumCache:
 def answer_to(request: Request, cancelled: Callable[[], bool] | None = None) -> Psf | float:
     """Return what a request asks for, for a worker. Raises P2SFError where there is no PSF."""
     if isinstance(request, PsfRequest):
-        return psf_of(request, cancelled)
+        psf = psf_of(request, cancelled)
+        for name in SHOWN:
+            psf.figures.value(name)
+        return psf
     try:
         return plane_wave_error(request.lens, request.source, request.clip)
     except P2SFError:  # a choice does without

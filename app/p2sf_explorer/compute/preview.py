@@ -12,7 +12,7 @@ from p2sf.lens.lens import Lens
 from p2sf.messages import Message
 from p2sf.metrics.wavefront_map import MapTerms, WavefrontMap, map_of_terms
 from p2sf.psf.fitted import counts_of, fitted_waves, psf_of_fit
-from p2sf.psf.picture import Origin, psf_of_waves
+from p2sf.psf.picture import psf_of_waves
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import seidel_psf
 from p2sf.psf.sums.plane_waves import disc_words, window_reach_um
@@ -125,11 +125,14 @@ def clipped_psf(traced: Preview, pixels: int, pixel_um: float) -> Psf:
     passed = pencil(setup.lens, setup.source, nodes.xi, nodes.eta, clip=True).passed
     if not passed.any():
         raise GeometryError(CLIPPED)
-    sampling = Message("{nodes}, those that the rims let pass", nodes=disc_words(counts))
-    made = Origin("fitted", fitted.numbers, fitted.rays + passed.size, sampling, traced.begun)
-    waves = fitted_waves(fitted, counts, reach, passed)
-    return psf_of_waves(
-        waves, (pixels, pixel_um), setup.source.wavelength_um, None, made, lambda reach: None, "preview"
+    waves, window = fitted_waves(fitted, counts, reach, passed), (pixels, pixel_um)
+    psf = psf_of_waves(waves, window, setup.source.wavelength_um, "fitted", None, lambda reach: None, "preview")
+    return replace(
+        psf,
+        numbers=fitted.numbers,
+        rays=fitted.rays + passed.size,
+        sampling=Message("{nodes}, those that the rims let pass", nodes=disc_words(counts)),
+        seconds=perf_counter() - traced.begun,
     )
 
 

@@ -239,7 +239,7 @@ class Stored:
         """
         check_one(source)
         psf = pixels_psf(self.database, source, pixels, pixel_um, integrated)
-        return warn_of_window(psf.with_fields(provenance=partial(self.describe, source)), 4)
+        return warn_of_window(psf.with_figures(provenance=partial(self.describe, source)), 4)
 
     @property
     def record(self) -> dict[str, Any]:

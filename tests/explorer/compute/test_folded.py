@@ -13,6 +13,7 @@ from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.messages import Message
+from p2sf.psf.result import Later
 from p2sf.raytrace.pencil import pencil
 from p2sf_explorer.compute.live import Live, live
 from p2sf_explorer.compute.setup import default_state
@@ -37,6 +38,8 @@ def differences(one: object, two: object, place: str) -> list[str]:
     """Return where two answers differ by more than rounding, whatever they are made of."""
     if isinstance(one, Message) and isinstance(two, Message):
         return differences((one.template, one.values), (two.template, two.values), place)
+    if isinstance(one, Later) and isinstance(two, Later):
+        return differences(one(), two(), place)
     if type(one) is not type(two):
         return [f"{place}: {type(one)} and {type(two)}"]
     if isinstance(one, Mapping):
