@@ -24,7 +24,7 @@ ANGLES = ("deg2rad", "rad2deg", "radians", "degrees")
 BOUNDS = ("min", "max", "minimum", "maximum", "clip", "abs", "fabs")
 APPEARANCE = re.compile(  # where things stand in the window, and texts: no numbers that a user reads
     r"set(Contents)?Margins|(set|add)Spacing|add(Widget|Layout|Item|Stretch)|set\w*(Stretch|Width|Height|Size)|QSize"
-    r"|QFont|setMinimum\w+|setFixed\w+|setPointSize\w*|resize|adjusted|tr|singleShot|setInterval|warn|setStyleSheet"
+    r"|QFont|add_axes|setMinimum\w+|setFixed\w+|setPointSize\w*|resize|adjusted|tr|singleShot|setInterval|warn|setStyleSheet"
 )
 
 

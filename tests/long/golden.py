@@ -58,68 +58,7 @@ IGNORED = {
     *("seconds", "file", "versions", "cpu_seconds", "peak_bytes", "kernel_seconds", "picture_seconds", "memory_bytes"),
     *("scene", "why"),  # a path, and sentences
 }
-ONE_RULE = "rows and columns are lines of one pupil, summed by one rule; `mtf_and_energy` holds 2e-3 and 0.5 %"
-OFF = "0.2.1 was off by that at 5/mm: |FT| of 2048² samples of the PSF gives the new to 5e-7"
-STEEP = "a blur of 640 waves, beyond which rays stand for waves and say that they may be off by 7 %"
-MEASURED = "light of the model differs by 1e-6, and by that the numbers by up to 0.15 of the error that they state"
-TIES = "errors that do the same harm to 1e-12 stand in another order"
-AIMED = "rays are aimed to 1e-10 of the pupil, and a sum over many samples is a non-uniform FFT that holds 1e-9"
-SQUARED = "the square of a small phase error, told by other rays"
-RIMS = "nodes lie within the rims, for whose edge 1e-4 is predicted; 0.2.1 took 64 rays for no rim that clips"
-TURNED = "0.2.1 had rims behind a mask where they stand for a field along +y, whatever the azimuth of the source"
-SIX = "six coefficients serve where pixels hide what they leave out; the plan predicts more than that"
-DELIBERATE: dict[tuple[str, str], tuple[float, str]] = {
-    ("MTF", "al"): (5e-4, ONE_RULE),
-    ("MTF masked", "al"): (
-        2e-3,
-        OFF,
-    ),
-    ("energy", "_um"): (1e-4, ONE_RULE),
-    ("energy", "0_um"): (
-        4e-2,
-        STEEP,
-    ),
-    ("line spread", ""): (2e-4, ONE_RULE),
-    ("figures", "_um"): (1e-4, ONE_RULE),
-    ("figures", "centroid_um"): (3e-4, ONE_RULE),  # of 1 nm
-    ("figures", "predicted_error"): (3e-3, SQUARED),
-    ("figures", ""): (1e-8, AIMED),
-    ("freeform", "predicted_error"): (1.0, "the square of how well two sums agree, which are equal to rounding"),
-    ("freeform", ""): (1e-8, "sags are summed in another order; what a fit leaves is found from that"),
-    ("database fitted", ""): (1e-7, "pupils are fitted to rays that are aimed to 1e-10"),
-    ("database seidel", ""): (1e-8, AIMED),
-    ("measurement", "value"): (0.06, MEASURED),
-    ("measurement", "error"): (0.07, MEASURED),
-    ("measurement", "bound"): (0.07, MEASURED),
-    ("measurement", ""): (1e-5, MEASURED),
-    ("tolerances", "kind"): (inf, TIES),
-    ("tolerances", "first"): (1.0, TIES),
-    ("tolerances", "last"): (1.0, TIES),
-    ("tolerances", "rms_waves"): (1.0, TIES),
-    ("tolerances", "form_error"): (4e-4, TIES),
-    ("tolerances", "harm"): (1e-4, TIES),
-    ("tolerances", ""): (5e-7, "perturbed rays are aimed to 1e-10"),
-    ("PSF seidel preview", ""): (1e-4, "a preview is summed by small non-uniform FFTs in single precision"),
-    ("misaligned", "predicted_error"): (0.1, "the square of how well two sums agree, which are equal to rounding"),
-    ("misaligned", ""): (
-        1e-8,
-        "a map of the stop has its terms in another order; rays are aimed to 1e-10",
-    ),
-    ("pictures misaligned", ""): (1e-7, "rays are aimed to 1e-10, and shading is a ratio of their areas"),
-    ("PSF clipped misaligned masked", ""): (5e-3, TURNED),
-    ("pictures misaligned", "picture"): (1e-2, SIX),
-    ("PSF fitted clipped", "predicted_error"): (1.0, RIMS),
-    ("PSF fitted clipped", "energy"): (1e-5, RIMS),
-    ("PSF", "predicted_error"): (2e-3, SQUARED),
-    ("choice", "predicted_error"): (2e-3, SQUARED),
-    ("PSF", ""): (2e-8, AIMED),
-    ("Zernike", "residual_waves"): (1e-7, AIMED),
-    ("Zernike", ""): (1e-8, AIMED),
-    ("colour", ""): (1e-8, AIMED),
-    ("nodes", ""): (1e-8, AIMED),
-    ("spots", ""): (5e-7, AIMED),  # of 1 nm
-    ("PSF huygens", "predicted_error"): (1.0, "the square of how well two sums agree, which are equal to rounding"),
-}
+DELIBERATE: dict[tuple[str, str], tuple[float, str]] = {}
 """Of kinds with these words, figures that end so: up to which difference they differ on purpose, and why."""
 State = tuple[str, str, Callable[[], Any]]  # kind, name, and what computes its figures
 
