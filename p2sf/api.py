@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from numpy.typing import ArrayLike
 
-from p2sf.arguments import check_arguments, former_names
+from p2sf.arguments import check_arguments
 from p2sf.errors import P2SFWarning
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
@@ -68,7 +68,6 @@ def load_lens(name_or_path: Path) -> Lens:
     return find_lens(name_or_path)
 
 
-@former_names(tolerance="min_r2")
 @check_arguments
 @with_camera
 def render(
@@ -239,7 +238,6 @@ def zernike(
     return zernike_fit(setup.lens, setup.source, basis, terms, clip)
 
 
-@former_names(tolerance="min_r2")
 @check_arguments
 @with_camera
 def choose_method(

@@ -1,7 +1,6 @@
 """Conversion and checks of arguments: quantities with a unit, masked arrays, lists for tuples, non-numbers."""
 
 import os
-import warnings
 from collections.abc import Callable
 from dataclasses import fields, is_dataclass
 from functools import lru_cache, wraps
@@ -61,40 +60,6 @@ def check_arguments(function: Function) -> Function:
     plain = [each.replace(annotation=Parameter.empty) for each in own.parameters.values()]
     call.__signature__ = Signature(plain)  # type: ignore[attr-defined]
     return cast("Function", call)
-
-
-def former_names(positional: tuple[str, ...] = (), **names: str) -> Callable[[Function], Function]:
-    """Return a decorator for a function whose parameters had other names; those work with a DeprecationWarning.
-
-    ``names``: the new name by the former one. ``positional``: names, in their former order, of parameters behind the
-    first that are given by name now. RequestError for a value given by both names.
-    """
-
-    def decorate(function: Function) -> Function:
-        @wraps(function)
-        def call(*args: Any, **kwargs: Any) -> Any:
-            for old, new in names.items():
-                if old in kwargs:
-                    _warn_of_name(f"{old} is {new} now")
-                    _add(kwargs, new, kwargs.pop(old))
-            for name, value in zip(positional, args[1:], strict=False):
-                _warn_of_name(f"give {name} by its name")
-                _add(kwargs, name, value)
-            return function(*(args[:1] if positional else args), **kwargs)
-
-        return cast("Function", call)
-
-    return decorate
-
-
-def _warn_of_name(words: str) -> None:
-    warnings.warn(words, DeprecationWarning, stacklevel=3)
-
-
-def _add(given: dict[str, Any], name: str, value: Any) -> None:
-    if name in given:
-        raise RequestError("{parameter} is given twice; keep one of them", parameter=name)
-    given[name] = value
 
 
 def check_fields(instance: Any) -> None:

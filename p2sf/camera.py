@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from p2sf.arguments import former_names, real_array
+from p2sf.arguments import real_array
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import RequestError
 from p2sf.lens.lens import (
@@ -143,7 +143,6 @@ class Camera(CameraData):
             wavelengths_nm = np.unique([min(lens.wavelengths_nm), max(lens.wavelengths_nm)])
         return build_database(lens, depths_mm, fields_deg, wavelengths_nm, method=method, camera=self, **how)
 
-    @former_names(tolerance="rtol")
     def photograph(
         self,
         image: ArrayLike,

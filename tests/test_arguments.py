@@ -201,7 +201,6 @@ WRONG = {
     "an axis that is none": lambda: p2sf.Camera(LENS).sweep(fields_deg=[0, 5]),
     "an R² for an error": lambda: p2sf.Scene(SCENE.sensor, rtol=5),
     "two limits": lambda: p2sf.Scene(SCENE.sensor, rtol=0.1, min_r2=0.99),
-    "two names of one number": lambda: p2sf.render(LENS, tolerance=0.9, min_r2=0.9),
     "a wavefront that is not square": lambda: p2sf.Pupil(np.zeros((8, 9)), 0.1, 550),
     "a PSF in two rows": lambda: p2sf.fit_psf(np.zeros(9), na=0.1, wavelength_nm=550, pixel_um=1),
     "a limit of nothing": lambda: p2sf.Camera("achromat_f6").tolerances({"sharpness": 0.3}),

@@ -8,8 +8,8 @@ from threading import Lock
 import numpy as np
 
 from p2sf.image.progress import Progress
-from p2sf.image.region import Region, whole
-from p2sf.pixel_kernels.nodes import hats, nodes_along
+from p2sf.image.region import Region
+from p2sf.pixel_kernels.nodes import hats
 from p2sf.threads import for_each
 
 # Numbers of nodes whose kernels are requested at once: first a few, to find their size; then by pixels, or nodes.
@@ -231,18 +231,6 @@ def _about(nodes: np.ndarray, first: float, last: float) -> range:
     stop = int(np.searchsorted(nodes, last, "left"))
     final = len(nodes) - 1
     return range(min(max(start, 0), final), min(max(stop, 0), final) + 1)
-
-
-def build_lattice(
-    kernels_at: KernelsAt,
-    shape: tuple[int, int],
-    counts: tuple[int, int],
-    mirrored: bool = False,
-    watch: Progress | None = None,
-) -> Lattice:
-    """Return the lattice of ``kernels_at(rows, columns)`` over a picture of this shape; ``mirrored`` as above."""
-    rows, columns = (nodes_along(n, c) for n, c in zip(shape, counts, strict=True))
-    return NodeKernels(kernels_at, rows, columns, mirrored).over(whole(shape), watch)
 
 
 def common_size(lattice: Lattice, channel: int) -> np.ndarray:

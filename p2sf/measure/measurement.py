@@ -5,12 +5,10 @@ Measurements are kept in files, and two of them compared.
 
 import json
 import os
-import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from math import inf
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -490,22 +488,3 @@ def _pairs(one: np.ndarray, two: np.ndarray) -> list[tuple[int, int]]:
         return []
     away = np.hypot(*(one[:, None] - two[None]).transpose(2, 0, 1))
     return [(k, int(np.argmin(row))) for k, row in enumerate(away) if row.min() < NEAR_MM]
-
-
-def __getattr__(name: str) -> object:
-    """Return `measure_frame` by its former name and with its former keywords, for one version more."""
-    if name != "measured":
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    warnings.warn("measured is measure_frame now", DeprecationWarning, stacklevel=2)
-    return _by_keywords
-
-
-def _by_keywords(
-    frames: Sequence[Frame],
-    optics: PictureOptics,
-    *,
-    progress: Callable[[float], None] | None = None,
-    cancelled: Callable[[], bool] | None = None,
-    **known: Any,
-) -> Measurement:
-    return measure_frame(frames, optics, FrameRequest(**known), progress, cancelled)

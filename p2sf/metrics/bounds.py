@@ -21,11 +21,6 @@ def mtf_error(one_less_r2: float) -> float:
     return sqrt(one_less_r2)
 
 
-def r2_for_mtf(error: float) -> float:
-    """Return the least R² that keeps an RMS error of the MTF."""
-    return 1 - error**2
-
-
 def r80_sensitivity(psf: Psf) -> float:
     """Return c of |ΔR80|/R80 ≤ c·√ε for a PSF about its centroid; inf where its window holds no R80.
 

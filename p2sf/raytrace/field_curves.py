@@ -6,14 +6,12 @@ See handbook 8.3.
 """
 
 from dataclasses import dataclass
-from math import atan, degrees, hypot, nan
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from p2sf.conventions import UM_PER_MM, FloatOrArray
-from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, seen_from
 from p2sf.lens.source import Source
 from p2sf.paraxial.first_order import image_distance
@@ -90,54 +88,6 @@ def real_foci(lens: Lens, source: Source, field_slope: ArrayLike, stop: Stop | N
     half = (a - d) / 2
     apart = np.copysign(np.sqrt(np.maximum(half * half + b * c, 0.0)), half)
     return Foci(*(np.where(lost, np.nan, -((a + d) / 2 + side * apart) - chief_z) for side in (1, -1)))
-
-
-@dataclass(frozen=True, eq=False)
-class FocalSurface:
-    """The surface of best focus over a grid of fields (x, y), in the axes of the sensor, mm.
-
-    ``points``: (ny, nx, 3), halfway between both foci of each field, z > 0 behind the sensor; NaN where rays are lost.
-    ``tilt_deg``: the right-handed tilts about x and y that align a sensor with the least-squares plane through the
-    points, degrees; ``shift_mm``: where that plane crosses the middle of the points.
-    """
-
-    points: np.ndarray
-    tilt_deg: tuple[float, float]
-    shift_mm: float
-
-
-def focal_surface(lens: Lens, source: Source, x_deg: ArrayLike, y_deg: ArrayLike) -> FocalSurface:
-    """Return where the points of a plane object are in focus, at all fields (x, y), and the best-fit plane.
-
-    Raises GeometryError if fewer than three fields pass.
-    """
-    rows = [[_focal_point(lens, source, float(x), float(y)) for x in np.ravel(x_deg)] for y in np.ravel(y_deg)]
-    points = np.array(rows)
-    known = points[np.isfinite(points).all(-1)]
-    if len(known) < 3:
-        raise GeometryError(
-            "only {count} fields have a focus, but a plane needs three; choose smaller fields", count=len(known)
-        )
-    centre = known.mean(0)
-    across, up = np.linalg.lstsq((known - centre)[:, :2], known[:, 2] - centre[2], rcond=None)[0].tolist()
-    # The normal (−across, −up, 1) is R_x(a)·R_y(b)·z = (sin b, −sin a·cos b, cos a·cos b).
-    tilt = degrees(atan(up)), degrees(-atan(across / hypot(1.0, up)))
-    return FocalSurface(points, tilt, float(centre[2]))
-
-
-def _focal_point(lens: Lens, source: Source, x_deg: float, y_deg: float) -> list[float]:
-    """Return the point (x, y, z) halfway between the foci of a field, in the axes of the sensor, mm."""
-    point = Source(source.depth_mm, wavelength_um=source.wavelength_um, field_deg=(x_deg, y_deg))
-    foci = real_foci(lens, point, point.field_slope)
-    turned = seen_from(lens, point.azimuth_deg)
-    rays = pupil_rays(turned, point, np.zeros(1), np.zeros(1))
-    beam = run(turned, start(rays), rays.index)
-    if beam.status.any():
-        return [nan, nan, nan]
-    z = float(foci.sagittal + foci.tangential) / 2
-    across, up = (float((place + z * part / beam.r)[0]) for place, part in ((beam.x, beam.p), (beam.y, beam.q)))
-    turn = np.deg2rad(point.azimuth_deg)
-    return [float(across * np.cos(turn) + up * np.sin(turn)), float(up * np.cos(turn) - across * np.sin(turn)), z]
 
 
 def seidel_foci(c: Coefficients) -> Foci:

@@ -5,7 +5,6 @@ polynomials orthogonalised there by Gram–Schmidt (Mahajan & Dai 2007); over a 
 Mahajan 1981. The mean squares then add up to the variance of the wavefront for any shape of the pupil.
 """
 
-import warnings
 from dataclasses import dataclass
 from math import ceil
 
@@ -56,12 +55,6 @@ class ZernikeFit:
     def __repr__(self) -> str:
         terms, strehl = f"{len(self.terms)} terms, {self.basis}", f"Strehl ratio by Maréchal {self.marechal:.3g}"
         return f"<ZernikeFit: {terms}, RMS {self.rms:.4g} waves, residual {self.residual:.2g}, {strehl}>"
-
-    @property
-    def order(self) -> ZernikeOrder:
-        """Return `basis` by its former name, with a DeprecationWarning."""
-        warnings.warn("ZernikeFit.order is ZernikeFit.basis now", DeprecationWarning, stacklevel=2)
-        return self.basis
 
     @property
     def marechal(self) -> float:

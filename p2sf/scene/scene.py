@@ -1,12 +1,8 @@
 """The scene: depths, part of the field, colours and tolerance."""
 
-import warnings
-from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
-from functools import wraps
 from itertools import pairwise
 from math import inf, isfinite, log10, sqrt
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -198,12 +194,6 @@ class Scene:
         return next((value for name in LIMITS if (value := getattr(self, name)) is not None), USUAL_RTOL)
 
     @property
-    def tolerance(self) -> float:
-        """Return `limit` by its former name, with a DeprecationWarning."""
-        warnings.warn("Scene.tolerance is Scene.limit now", DeprecationWarning, stacklevel=2)
-        return self.limit
-
-    @property
     def relative_tolerance(self) -> float:
         """Return the tolerance as relative L2 error of any kernel: `relative_error` of one on a single pixel."""
         return self.relative_error(1.0)
@@ -316,20 +306,5 @@ def limit_of(measure: str, tolerance: float | None) -> dict[str, float | None]:
     return {name: tolerance}
 
 
-def _with_former_names(make: Callable[..., None]) -> Callable[..., None]:
-    """Return the constructor, which takes ``tolerance`` and ``measure`` too, with a DeprecationWarning."""
-
-    @wraps(make)
-    def call(self: Scene, *args: Any, **given: Any) -> None:
-        if {"tolerance", "measure"} & given.keys():
-            words = "tolerance and measure are rtol, min_r2, mtf_error or min_psnr_db now"
-            warnings.warn(words, DeprecationWarning, stacklevel=2)
-            given |= limit_of(given.pop("measure", "relative"), given.pop("tolerance", USUAL_RTOL))
-        make(self, *args, **given)
-
-    return call
-
-
-Scene.__init__ = _with_former_names(Scene.__init__)  # type: ignore[method-assign]
 CAMERA_PARAMETERS = tuple(part.name for part in fields(Scene) if part.name in {own.name for own in fields(Settings)})
 """What of a camera a scene states."""

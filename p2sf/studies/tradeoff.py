@@ -12,7 +12,7 @@ from typing import BinaryIO
 
 from numpy.typing import ArrayLike
 
-from p2sf.arguments import check_arguments, former_names, number_list
+from p2sf.arguments import check_arguments, number_list
 from p2sf.html import html_table
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
@@ -67,7 +67,6 @@ class TradeoffTable(list[MethodCost]):
         return html_table("Each method against the Huygens sum", head, rows)
 
 
-@former_names(positional=("fields_deg", "depths_mm", "wavelengths_nm"))
 @one_blas_thread
 @check_arguments
 @with_camera

@@ -11,7 +11,7 @@ from p2sf.image.blur_operator import BlurOperator
 from p2sf.image.charts import draw_chart
 from p2sf.image.form import Forming, form_image
 from p2sf.image.geometry import distort, distortion_px, illumination
-from p2sf.image.lattice import NodeKernels, build_lattice, choose_step, computed_nodes, weights_between
+from p2sf.image.lattice import NodeKernels, choose_step, computed_nodes, weights_between
 from p2sf.image.lowrank import decompose, low_rank_blur
 from p2sf.image.preview import preview, preview_plan
 from p2sf.image.progress import Progress
@@ -26,6 +26,7 @@ from p2sf.scene.scene import Channel, Scene
 from p2sf.scene.sensor import Sensor
 from p2sf.threads import using_threads
 from tests.support.direct_sum import direct_sum
+from tests.support.exact_lattice import build_lattice
 
 SIDE, HALF = 128, 7
 GREEN = (Channel("green", (540.0,), (1.0,)),)

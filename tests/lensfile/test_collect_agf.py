@@ -7,9 +7,10 @@ from p2sf.glass.catalogue import glasses_by_maker
 from p2sf.glass.dispersion import LINES_UM, refractive_index
 from p2sf.glass.media import catalogue_glass
 from p2sf.glass.pages import CATALOGUES, GlassPage, page_names
-from p2sf.lensfile import agf, collect_agf
+from p2sf.lensfile import agf
 from p2sf.lensfile.glass_lookup import GlassSources, resolve
 from p2sf.lensfile.raw import RawGlass
+from tests.long import collect_agf
 
 COEFFICIENTS = {
     3: (1.5, 0.004, 1e-5, -2e-4, 1e-5, -1e-6),

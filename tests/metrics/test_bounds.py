@@ -8,7 +8,7 @@ import pytest
 from p2sf.lens.lens import with_f_number
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.metrics.bounds import mtf_error, r2_for_mtf, r80_sensitivity
+from p2sf.metrics.bounds import mtf_error, r80_sensitivity
 from p2sf.psf.compare import r_squared
 from p2sf.psf.methods import render
 
@@ -50,7 +50,3 @@ def test_r80_errs_by_no_more_than_r2_allows(scale):
     allowed = r80_sensitivity(psf) * mtf_error(1 - r_squared(p / p.sum(), q / q.sum()))
     assert made == pytest.approx(abs(scale - 1), abs=0.006), "to a sixteenth of a pixel"
     assert made <= allowed <= 10 * made, "a bound, and not an empty one"
-
-
-def test_an_mtf_error_and_its_r2_are_one_another_s_inverse():
-    assert r2_for_mtf(mtf_error(0.01)) == pytest.approx(0.99)

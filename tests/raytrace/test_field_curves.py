@@ -1,12 +1,15 @@
 """Focal surfaces, distortion and colour shift: exact rays against the third order, and laws of symmetric lenses."""
 
-from math import inf
+from dataclasses import dataclass
+from math import atan, degrees, hypot, inf, nan
 
 import numpy as np
 import pytest
+from numpy.typing import ArrayLike
 
+from p2sf.errors import GeometryError
 from p2sf.glass.media import ConstantIndex
-from p2sf.lens.lens import Aperture, Lens, Surface, with_sensor
+from p2sf.lens.lens import Aperture, Lens, Surface, seen_from, with_sensor
 from p2sf.lens.misalignment import displaced, with_tilted_sensor
 from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source
@@ -14,10 +17,60 @@ from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.first_order import cardinal_points, image_distance, magnification
 from p2sf.paraxial.seidel import coefficients
 from p2sf.raytrace import field_curves as fieldcurves
+from p2sf.raytrace.aiming import pupil_rays, start
 from p2sf.raytrace.pencil import pencil
+from p2sf.raytrace.trace import run
 
 SMALL = np.array([0.01, 0.02])
 NAMES = ("double_gauss_28", "cooke_triplet", "landscape", "eye_navarro", "telephoto")
+
+
+@dataclass(frozen=True, eq=False)
+class FocalSurface:
+    """The surface of best focus over a grid of fields (x, y), in the axes of the sensor, mm.
+
+    ``points``: (ny, nx, 3), halfway between both foci of each field, z > 0 behind the sensor; NaN where rays are lost.
+    ``tilt_deg``: the right-handed tilts about x and y that align a sensor with the least-squares plane through the
+    points, degrees; ``shift_mm``: where that plane crosses the middle of the points.
+    """
+
+    points: np.ndarray
+    tilt_deg: tuple[float, float]
+    shift_mm: float
+
+
+def focal_surface(lens: Lens, source: Source, x_deg: ArrayLike, y_deg: ArrayLike) -> FocalSurface:
+    """Return where the points of a plane object are in focus, at all fields (x, y), and the best-fit plane.
+
+    Raises GeometryError if fewer than three fields pass.
+    """
+    rows = [[_focal_point(lens, source, float(x), float(y)) for x in np.ravel(x_deg)] for y in np.ravel(y_deg)]
+    points = np.array(rows)
+    known = points[np.isfinite(points).all(-1)]
+    if len(known) < 3:
+        raise GeometryError(
+            "only {count} fields have a focus, but a plane needs three; choose smaller fields", count=len(known)
+        )
+    centre = known.mean(0)
+    across, up = np.linalg.lstsq((known - centre)[:, :2], known[:, 2] - centre[2], rcond=None)[0].tolist()
+    # The normal (−across, −up, 1) is R_x(a)·R_y(b)·z = (sin b, −sin a·cos b, cos a·cos b).
+    tilt = degrees(atan(up)), degrees(-atan(across / hypot(1.0, up)))
+    return FocalSurface(points, tilt, float(centre[2]))
+
+
+def _focal_point(lens: Lens, source: Source, x_deg: float, y_deg: float) -> list[float]:
+    """Return the point (x, y, z) halfway between the foci of a field, in the axes of the sensor, mm."""
+    point = Source(source.depth_mm, wavelength_um=source.wavelength_um, field_deg=(x_deg, y_deg))
+    foci = fieldcurves.real_foci(lens, point, point.field_slope)
+    turned = seen_from(lens, point.azimuth_deg)
+    rays = pupil_rays(turned, point, np.zeros(1), np.zeros(1))
+    beam = run(turned, start(rays), rays.index)
+    if beam.status.any():
+        return [nan, nan, nan]
+    z = float(foci.sagittal + foci.tangential) / 2
+    across, up = (float((place + z * part / beam.r)[0]) for place, part in ((beam.x, beam.p), (beam.y, beam.q)))
+    turn = np.deg2rad(point.azimuth_deg)
+    return [float(across * np.cos(turn) + up * np.sin(turn)), float(up * np.cos(turn) - across * np.sin(turn)), z]
 
 
 def focused(name):
@@ -139,7 +192,7 @@ def test_neighbours_of_the_chief_ray_cross_it_at_the_foci():
 def test_the_plane_of_focus_of_a_tilted_sensor_is_tilted_the_other_way(tilt):
     lens, _ = focused("tessar")
     sensor = with_tilted_sensor(lens, Placement(tilt_x_deg=tilt[0], tilt_y_deg=tilt[1]))
-    found = fieldcurves.focal_surface(sensor, Source(), GRID, GRID)
+    found = focal_surface(sensor, Source(), GRID, GRID)
     assert found.tilt_deg == pytest.approx((-tilt[0], -tilt[1]), rel=1e-3, abs=1e-3)  # of second order in the tilt
 
 
@@ -151,11 +204,11 @@ def test_scheimpflug(depth):
     """
     alpha, lens = 0.5, find_lens("tessar")
     lens = with_sensor(lens, float(image_distance(lens, depth, 0.5875618)))
-    straight = fieldcurves.focal_surface(lens, Source(depth, 0.0, 0.5875618), GRID, GRID)
+    straight = focal_surface(lens, Source(depth, 0.0, 0.5875618), GRID, GRID)
     assert straight.tilt_deg == pytest.approx((0.0, 0.0), abs=1e-9)
     curvature = 2 * (straight.points[2, 1, 2] - straight.points[1, 1, 2]) / straight.points[2, 1, 1] ** 2
     turned = displaced(lens, 1, len(lens.surfaces), Placement(tilt_x_deg=alpha))
-    found = fieldcurves.focal_surface(turned, Source(depth, 0.0, 0.5875618), GRID, GRID)
+    found = focal_surface(turned, Source(depth, 0.0, 0.5875618), GRID, GRID)
     focal = float(cardinal_points(lens, 0.5875618).effective_focal_length)
     m = 0.0 if depth == inf else float(magnification(lens, depth, 0.5875618))
     lever = focal if depth == inf else -m * depth

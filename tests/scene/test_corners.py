@@ -13,7 +13,7 @@ from p2sf.io.photo_files import read_photo, write_photo
 from p2sf.lens.lens import AIMS, with_aim
 from p2sf.lensfile.library import find_lens
 from p2sf.scene.files import read_scene
-from p2sf.scene.scene import Channel, Scene
+from p2sf.scene.scene import Channel, Scene, limit_of
 from p2sf.scene.sensor import Sensor
 from tests.cli.test_scene import SCENE
 
@@ -25,7 +25,6 @@ SIMPLE = Scene(Sensor(40, 60, 60.0))
     [
         ({"near_mm": 0.0}, "give positive depths, the near one first"),
         ({"near_mm": 5.0, "far_mm": 4.0}, "from 5 mm to 4 mm"),
-        ({"measure": "ssim"}, 'measured as "ssim"; choose relative, r2, mtf, psnr or hdr'),
         ({"min_psnr_db": -3.0}, "min_psnr_db is -3; give the least peak signal-to-noise"),
         ({"min_psnr_db": 60.0}, "tighter than"),
         ({"rtol": 1.0}, "rtol is 1; give a number between 0 and 1"),
@@ -37,6 +36,11 @@ SIMPLE = Scene(Sensor(40, 60, 60.0))
 def test_a_scene_that_cannot_be_is_refused(change, words):
     with pytest.raises(RequestError, match=words):
         replace(SIMPLE, **change)
+
+
+def test_a_file_of_before_0_3_with_an_unknown_measure_is_refused():
+    with pytest.raises(RequestError, match='measured as "ssim"; choose relative, r2, mtf, psnr or hdr'):
+        limit_of("ssim", 0.1)
 
 
 @pytest.mark.parametrize(("line", "aim"), [("", None), ('aim = "paraxial"', "paraxial"), ('aim = "real"', "stop")])

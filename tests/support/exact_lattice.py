@@ -2,7 +2,10 @@
 
 import numpy as np
 
-from p2sf.image.lattice import Lattice, build_lattice
+from p2sf.image.lattice import KernelsAt, Lattice, NodeKernels
+from p2sf.image.progress import Progress
+from p2sf.image.region import whole
+from p2sf.pixel_kernels.nodes import nodes_along
 from p2sf.scene.planning.plan import Plan
 from p2sf.scene.planning.reference import reference_kernel
 
@@ -22,3 +25,15 @@ def exact_lattice(planned: Plan, count: int, half: int, vergence: float | None =
         ]
 
     return build_lattice(kernels_at, (sensor.rows, sensor.columns), (count, count))
+
+
+def build_lattice(
+    kernels_at: KernelsAt,
+    shape: tuple[int, int],
+    counts: tuple[int, int],
+    mirrored: bool = False,
+    watch: Progress | None = None,
+) -> Lattice:
+    """Return the lattice of ``kernels_at(rows, columns)`` over a picture of this shape."""
+    rows, columns = (nodes_along(n, c) for n, c in zip(shape, counts, strict=True))
+    return NodeKernels(kernels_at, rows, columns, mirrored).over(whole(shape), watch)

@@ -1,6 +1,6 @@
 """Create the file of the glasses that refractiveindex.info lacks, from catalogues of their makers.
 
-``python -m p2sf.lensfile.collect_agf MAKER=PATH …``, where PATH is an AGF catalogue, or a folder of pages of an earlier
+``python -m tests.long.collect_agf MAKER=PATH …``, where PATH is an AGF catalogue, or a folder of pages of an earlier
 release of refractiveindex.info. Of two entries of one name the first counts; what the database has is left out, but for
 the glasses in `REPLACED`. A catalogue is a list of measured numbers; its words are not taken over.
 """
