@@ -47,7 +47,6 @@ if TYPE_CHECKING:
     from p2sf.metrics.opd_pupil import Pupil, fit_zernike
     from p2sf.metrics.samples import energy_of_psf, line_spread_of_psf, mtf_of_psf
     from p2sf.named_arrays import NamedArrays
-    from p2sf.notebook_widget import widget
     from p2sf.paraxial.positions import lens_at
     from p2sf.paraxial.seidel import Coefficients
     from p2sf.psf.from_opd import psf_of_opd
@@ -62,6 +61,7 @@ if TYPE_CHECKING:
     from p2sf.sweep import Sweep
     from p2sf.tolerance.errors_of_build import Tolerance
     from p2sf.tolerance.yields import ToleranceStudy, tolerances
+    from p2sf_explorer.notebook_widget import widget
 
 __all__ = [
     "Aperture",
@@ -193,7 +193,7 @@ _ELSEWHERE = {
     "sharpen_image": "p2sf.image.picture",
     "tolerances": "p2sf.tolerance.yields",
     "tradeoff": "p2sf.studies.tradeoff",
-    "widget": "p2sf.notebook_widget",
+    "widget": "p2sf_explorer.notebook_widget",
     "with_absorption": "p2sf.lens.lens",
     "with_mask": "p2sf.lens.lens",
     "write_lens": "p2sf.lensfile.writing",

@@ -22,7 +22,7 @@ LAYERS = (
     "p2sf.export p2sf.measure p2sf.studies",
     "p2sf.api p2sf_explorer.i18n p2sf_explorer.state",
     "p2sf.sweep p2sf_explorer.compute",
-    "p2sf.camera p2sf_explorer.charts p2sf_explorer.store p2sf_explorer.report p2sf.notebook_widget",
+    "p2sf.camera p2sf_explorer.charts p2sf_explorer.store p2sf_explorer.report p2sf_explorer.notebook_widget",
     "p2sf_explorer.files p2sf_explorer.handbook",
     "p2sf_explorer.widgets",
     "p2sf_explorer.compare p2sf_explorer.lessons p2sf_explorer.scene3d",
@@ -35,7 +35,13 @@ LAYERS = (
 )
 FLOOR = {folder: floor for floor, line in enumerate(LAYERS) for folder in line.split()}
 QT = {"PySide6", "pyqtgraph", "pyvista"}
-WITHOUT_QT = ("p2sf.", "p2sf_explorer.state.", "p2sf_explorer.compute.", "p2sf_explorer.report.")
+WITHOUT_QT = (
+    "p2sf.",
+    "p2sf_explorer.state.",
+    "p2sf_explorer.compute.",
+    "p2sf_explorer.report.",
+    "p2sf_explorer.notebook_widget.",
+)
 
 
 def sources() -> list[Path]:

@@ -8,7 +8,6 @@ from numpy.polynomial.legendre import leggauss
 import p2sf
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.notebook_widget import draw_pupil
 from p2sf.raytrace.pencil import displayed_opd
 from p2sf.tolerance.differentials import differentials
 from p2sf.tolerance.files import back_focus
@@ -22,6 +21,7 @@ from p2sf_explorer.compute.pupil import pupil_of
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.compute.views.zernike import zernike
 from p2sf_explorer.lessons.measures import MEASURES
+from p2sf_explorer.notebook_widget import draw_pupil
 from p2sf_explorer.panels.zernike import figures
 from p2sf_explorer.state.state import change, new_state
 from tests.support.waves import rms_about_plane

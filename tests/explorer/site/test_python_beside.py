@@ -8,7 +8,7 @@ import p2sf
 from p2sf.cli import COMMANDS
 from p2sf_explorer.site.python_beside import PYTHON, with_python
 
-SHOWN = {"explore"}  # a widget, which tests/test_notebook_widget.py shows
+SHOWN = {"explore"}  # a widget, which tests/explorer/test_notebook_widget.py shows
 
 
 def test_a_line_stands_below_the_heading_of_its_command():
