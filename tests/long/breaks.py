@@ -30,10 +30,11 @@ APPEARANCE = re.compile(  # where things stand in the window, and texts: no numb
 
 @dataclass(frozen=True)
 class Break:
-    """One break: its file, line and rule, the bytes it replaces, and the line before and after."""
+    """One break: its file, line, function and rule, the bytes it replaces, and the line before and after."""
 
     file: str
     line: int
+    inside: str
     rule: str
     edit: Edit
     before: str
@@ -176,29 +177,32 @@ RULES: tuple[Rule, ...] = (sign, factor, axes, one_off, unit, guard)
 def places(file: str, source: bytes) -> Iterator[Break]:
     """Yield every break of a file."""
     text = Text(source)
-    for node in _looked_at(ast.parse(source)):
+    for node, inside in _looked_at(ast.parse(source)):
         for rule in RULES:
             for edit in rule(text, node):
-                yield _break(file, text, rule.__name__, edit)
+                yield _break(file, text, inside, rule.__name__, edit)
 
 
-def _break(file: str, text: Text, rule: str, edit: Edit) -> Break:
+def _break(file: str, text: Text, inside: str, rule: str, edit: Edit) -> Break:
     start, end, new = edit
     first, last = text.source.rfind(b"\n", 0, start) + 1, text.source.index(b"\n", end)
     before = text.source[first:last].decode()
     after = (text.source[first:start] + new.encode() + text.source[end:last]).decode()
-    return Break(file, text.source.count(b"\n", 0, start) + 1, rule, edit, before.strip(), after.strip())
+    line = text.source.count(b"\n", 0, start) + 1
+    return Break(file, line, inside, rule, edit, before.strip(), after.strip())
 
 
-def _looked_at(node: ast.AST, above: ast.AST | None = None) -> Iterator[ast.AST]:
-    """Yield the nodes below one, without types, decorators and texts; of a product only the outermost."""
-    yield from () if isinstance(node, ast.BinOp) and _same_product(node, above) else (node,)
+def _looked_at(node: ast.AST, inside: str = "", above: ast.AST | None = None) -> Iterator[tuple[ast.AST, str]]:
+    """Yield the nodes below one, each with its function, but no types, decorators and texts; of a product the whole."""
+    if not (isinstance(node, ast.BinOp) and _same_product(node, above)):
+        yield node, inside
+    inside = node.name if isinstance(node, ast.FunctionDef) else inside
     for name, value in ast.iter_fields(node):
         if name in ("annotation", "returns", "decorator_list", "type_params"):
             continue
         for child in value if isinstance(value, list) else (value,):
             if isinstance(child, ast.AST) and not _is_text(child):
-                yield from _looked_at(child, node)
+                yield from _looked_at(child, inside, node)
 
 
 def _same_product(node: ast.BinOp, above: ast.AST | None) -> bool:

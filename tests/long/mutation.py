@@ -79,8 +79,8 @@ def folder_of(file: str) -> str:
     return next(folder.as_posix() for folder in (own, *own.parents) if (ROOT / folder).is_dir())
 
 
-def tests_of(file: str) -> list[str]:
-    """Return the files of tests for a file of code, the closest first."""
+def tests_of(file: str, function: str = "") -> list[str]:
+    """Return the files of tests for a file of code, the closest first, of these those that name a function in it."""
     module = file.removeprefix("app/").removesuffix(".py").removesuffix("/__init__").replace("/", ".")
     folder = folder_of(file)
     beside = tuple(place for start, known in BESIDE.items() if file.startswith(f"{start}/") for place in known)
@@ -91,7 +91,10 @@ def tests_of(file: str) -> list[str]:
             return 0 if in_folder else 1
         return 2 if in_folder else 3 if test.startswith(beside) else 4
 
-    return sorted((test for test in imported() if distance(test) < 4), key=lambda test: (distance(test), test))
+    named = re.compile(rf"\b{function}\b".encode())
+    near = {test: distance(test) for test in imported() if distance(test) < 4}
+    found = [(away, not named.search((ROOT / test).read_bytes()), test) for test, away in near.items()]
+    return [test for *_, test in sorted(found)]
 
 
 def outcome(one: Break, copy: Path, seconds: float) -> dict[str, str]:
@@ -100,7 +103,7 @@ def outcome(one: Break, copy: Path, seconds: float) -> dict[str, str]:
     source, times = path.read_bytes(), path.stat()
     path.write_bytes(one.applied(source))
     try:
-        return run_tests(tests_of(one.file), copy, seconds)
+        return run_tests(tests_of(one.file, one.inside), copy, seconds)
     finally:
         path.write_bytes(source)
         os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))  # its compiled form is that of this time

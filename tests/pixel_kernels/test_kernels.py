@@ -1,5 +1,7 @@
 """Kernels of single pixels against the reference, and the laws they must keep."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -20,7 +22,7 @@ from p2sf.pixel_kernels.pixels import (
     pixel_kernels,
     transform_side,
 )
-from p2sf.pixel_kernels.pupil_stack import stack_pupils
+from p2sf.pixel_kernels.pupil_stack import stack_pupils, with_reach
 from p2sf.pixel_kernels.pupil_table import chebyshev, lagrange, pupil_table
 from p2sf.pixel_kernels.sensor_points import sensor_map
 from p2sf.psf.huygens import huygens_psf
@@ -193,6 +195,15 @@ def test_kernels_made_together_are_those_made_alone():
             alone = pixel_kernel(pupil, float(angle), window, tuple(shift))
             # float32; the pupils' grids are as wide as the widest of those made together
             assert relative(kernel, alone) < 2e-6
+
+
+@pytest.mark.parametrize("times", [0.7, 1.3])
+def test_one_pupil_with_more_or_less_light_than_its_polynomials_give_is_refused_among_good_ones(times):
+    """Where they fold, light is counted twice; the refusal says how much of it."""
+    good = stack_pupils([pupil_map(find_lens("cooke_triplet"), source(degrees), "fitted") for degrees in (0.0, 7.0)])
+    with_reach(good)
+    with pytest.raises(GeometryError, match=f"{times:g}\\d* times"):
+        with_reach(replace(good, energy=good.energy / [1.0, times]))
 
 
 def test_interpolation_is_exact_for_polynomials():

@@ -92,6 +92,14 @@ def test_an_own_value_is_typed_and_undone(panel, window, qtbot):
     assert {row[0] for row in window.store.state.tolerances.own} == {"tilt_x", "tilt_y"}
 
 
+def test_a_share_that_comes_late_does_not_say_that_stopped_builds_are_drawn(panel):
+    for refusal, words in (("", "computing, 50 %"), ("Stopped", "as before")):
+        panel.widget.set_readout("as before")
+        panel._refusal = refusal
+        panel._on_progress(panel._request, 0.5)
+        assert panel.widget.readout.text() == words
+
+
 @pytest.mark.parametrize(
     ("text", "value"), [("abc", "text"), ("-1", "high"), ("1e9", "high"), ("", "text"), ("1 furlong", "unit")]
 )
