@@ -217,3 +217,12 @@ def test_faint_light_is_lifted_and_keeps_its_hue():
     some = plain.max(-1) > 1e-3
     ratio = [rgb[some] / rgb[some].max(-1, keepdims=True) for rgb in (plain, faint)]
     assert ratio[0] == pytest.approx(ratio[1])
+
+
+def test_light_of_a_display_is_that_of_its_standard():
+    """IEC 61966-2-1: black, the end of the straight part, 8-bit greys of 1, 5, 21 and 50 % light, and white."""
+    values = np.array([0.0, 0.04045, 26 / 255, 63 / 255, 127 / 255, 188 / 255, 1.0])
+    light = np.array([0.0, 0.04045 / 12.92, 0.010330, 0.049707, 0.212231, 0.502886, 1.0])
+    assert colour.linear_from_srgb(values) == pytest.approx(light, abs=1e-6)
+    assert colour.srgb_from_linear(light) == pytest.approx(values, abs=1e-4)
+    assert colour.linear_from_srgb(np.array([-0.2])) == pytest.approx([-0.2])

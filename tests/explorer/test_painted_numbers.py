@@ -6,21 +6,28 @@ from math import inf
 
 import numpy as np
 import pytest
-from PySide6.QtGui import QImage
+from PySide6.QtCore import QEvent, QRectF, Qt
+from PySide6.QtGui import QColor, QImage, QKeyEvent
 
 from p2sf.lens.lens import indices
 from p2sf.lensfile.library import find_lens
 from p2sf_explorer.charts.colour_scale import ColourScale
 from p2sf_explorer.charts.plots import lookup
+from p2sf_explorer.charts.surface_plot import DARKEST, Viewpoint, light_up, slice_map
 from p2sf_explorer.charts.theme import tokens
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.quantities import QUANTITIES
 from p2sf_explorer.compute.setup import paraxial_setup, ranges, with_lens
 from p2sf_explorer.compute.views import field_map, through_focus
-from p2sf_explorer.panels.field_map import FieldMapPanel
+from p2sf_explorer.panels.field_map import NODE_COLOURS, NODE_PX, FieldMapPanel
+from p2sf_explorer.panels.image.split_view import close_up
 from p2sf_explorer.playback.sweep import sweep
+from p2sf_explorer.scene3d.renderer import direction
 from p2sf_explorer.scene3d.scene import scene
+from p2sf_explorer.state.camera import SceneCamera
 from p2sf_explorer.state.state import change, new_state
+from p2sf_explorer.widgets.scrub import claimed
+from p2sf_explorer.widgets.slider import ARROWS
 
 FIRST = new_state(method="seidel", theme="light")
 
@@ -188,3 +195,71 @@ def test_a_scrubbed_number_goes_as_far_as_its_handle_would(key):
     scale = quantity.scale(ranges(find_lens("double_gauss_28")))
     for start, by in ((0.2, 0.3), (0.9, -0.5), (0.0, 1.0 - 1e-9), (0.5, 0.0)):
         assert scale.moved(scale.value(start), by) == pytest.approx(scale.value(start + by), rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("turn", "tilt", "seen_from"),
+    [
+        (0, 0, (-1, 0, 0)),
+        (90, 0, (0, 0, -1)),
+        (180, 0, (1, 0, 0)),
+        (37, 90, (0, 1, 0)),
+        (0, -30, (-(0.75**0.5), -0.5, 0)),
+    ],
+)
+def test_the_camera_of_the_space_stands_where_its_angles_say(turn, tilt, seen_from):
+    assert direction(SceneCamera(turn=turn, tilt=tilt)) == pytest.approx(seen_from, abs=1e-12)
+
+
+@pytest.mark.parametrize("place", [(60.0, 80.0), (0.0, 0.0), (119.0, 159.0), (60.0, 0.0)])
+def test_a_detail_has_its_place_in_the_middle_unless_the_picture_ends_there(place):
+    shape, room = (120, 160), QRectF(0, 0, 300, 200)
+    part = close_up(place, shape, room)
+    assert part.width() / part.height() == pytest.approx(1.5)
+    for middle, low, size, most in (
+        (place[0] + 0.5, part.top(), part.height(), shape[0]),
+        (place[1] + 0.5, part.left(), part.width(), shape[1]),
+    ):
+        assert low == pytest.approx(min(max(middle, size / 2), most - size / 2) - size / 2)
+
+
+@pytest.mark.parametrize("key", [Qt.Key.Key_Escape, Qt.Key.Key_A, Qt.Key.Key_Left])
+@pytest.mark.parametrize("alt", [False, True])
+@pytest.mark.parametrize("moving", [False, True])
+@pytest.mark.parametrize("fine", [False, True])
+def test_a_moving_value_keeps_only_escape_and_fine_arrows_from_the_window(key, alt, moving, fine):
+    modifier = Qt.KeyboardModifier.AltModifier if alt else Qt.KeyboardModifier.NoModifier
+    event = QKeyEvent(QEvent.Type.ShortcutOverride, key, modifier)
+    arrow = key == Qt.Key.Key_Left
+    assert claimed(event, ARROWS, moving, fine) == ((key == Qt.Key.Key_Escape and moving) or (arrow and alt and fine))
+
+
+def test_a_surface_is_never_brighter_than_its_colour_and_never_black():
+    """A face turned to the light has all of it, and a steep one away from it the least."""
+    grid = slice_map(np.ones((33, 33), bool).tobytes(), 33, Viewpoint(30.0, 40.0, 48))
+    height = np.random.default_rng(2).normal(0, 3, grid.depth.shape)
+    light = light_up(height, grid)[~grid.lines]
+    assert light.min() == DARKEST and light.max() == 1.0
+
+
+def test_nodes_of_the_map_are_an_upright_and_a_diagonal_cross_about_their_places(window, qtbot):
+    asked = replace(field_map.field_map(live(FIRST, "preview")), window=(16, 5.0))
+    places = {"coma": (-0.35, 0.25), "astigmatism": (0.35, -0.25)}  # between the tiles of pictures that are dark
+    asked = replace(asked, nodes=tuple((name, *place) for name, place in places.items()))
+    panel = FieldMapPanel(window.store)
+    qtbot.addWidget(panel.widget)
+    panel.widget.resize(1000, 700)
+    panel.widget.grab()  # lays it out
+    panel._paint(asked, np.zeros((*field_map.SHAPE, 16, 16)))
+    picture, half = panel.chart.grab().toImage(), panel.chart.theme.px(NODE_PX)
+    for name, place in places.items():
+        colour = QColor(getattr(panel.chart.theme, NODE_COLOURS[name])).name()
+        x, y = (round(float(value)) for value in panel.chart.to_pixels(*place))
+        ends = {  # whether the two kinds of cross have an end there
+            **{(dx, dy): name == "coma" for dx in (-1, 1) for dy in (-1, 1)},
+            **{(dx, dy): name == "astigmatism" for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1))},
+        }
+        for (dx, dy), there in ends.items():
+            at = x + dx * (half - 1), y + dy * (half - 1)
+            near = {picture.pixelColor(at[0] + i, at[1] + j).name() for i in (-1, 0, 1) for j in (-1, 0, 1)}
+            assert (colour in near) == there
