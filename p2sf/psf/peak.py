@@ -178,7 +178,8 @@ def _kernel() -> np.ndarray:
 def _highest(waves: Waves, tops: list[Peak]) -> Peak:
     """Return the highest peak by climbing from the highest top, and from others that may be as high."""
     close = [top for top in tops if top.value >= tops[0].value * (1 - TOO_CLOSE)]
-    found = [climb(waves, top.x_um, top.y_um) for top in close[:MOST_CLIMBS]]
+    most = max(1, min(MOST_CLIMBS, MOST_WHILE_CLIMBING // (2 * waves.fx.size)))
+    found = [climb(waves, top.x_um, top.y_um) for top in close[:most]]
     highest = max(found, key=lambda peak: peak.value)
     away = 1 / (8 * waves.spread)
     same = sum(hypot(one.x_um - highest.x_um, one.y_um - highest.y_um) < away for one in found)

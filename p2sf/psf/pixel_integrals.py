@@ -17,7 +17,7 @@ from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.psf.huygens import FRINGES_OF_SPHERES
 from p2sf.psf.methods import AUTO, REFERENCE, SPHERICAL, USUAL, PsfOptions, method_of, render, whole_pixel_um
-from p2sf.psf.result import LEAST_LIGHT, Figure, Figures, Later, Psf
+from p2sf.psf.result import Figure, Figures, Later, Psf
 from p2sf.psf.seidel import check_samples
 from p2sf.pupil.binning import bin_samples
 from p2sf.raytrace.exit_sphere import exit_sphere
@@ -112,7 +112,7 @@ def integrate(
         points = render_at(pixels, pixel_um)
         if points.figures.energy is not None:
             return points
-        later = Later(lambda: _light_on_pixels(render_at, pixels, pixel_um, across).energy, costly=True)
+        later = Later(lambda: _light_on_pixels(render_at, pixels, pixel_um, across).energy, _unknown)
         return points.with_figures(energy=later)
     return _light_on_pixels(render_at, pixels, pixel_um, across)
 
@@ -167,15 +167,16 @@ def render_integrated(
         finest,
         wanted,
     )
-    later, clip = psf.figures.energy, options.clip
-    unasked = later is None or (isinstance(later, Later) and later.costly)
-    if unasked and options.quality == "settled" and light_of_rays(lens, source, psf, clip) < LEAST_LIGHT:
-        return psf.with_figures(energy=_energy(lens, source, psf, clip))  # now, since it is worth a warning
-    return psf.with_figures(energy=Later(partial(_energy, lens, source, psf, clip), unasked))
+    known, rays = psf.figures.energy, partial(light_of_rays, lens, source, psf, options.clip)
+    costly = known is None or (isinstance(known, Later) and known.costly)
+    estimate = rays if options.quality == "settled" else _unknown
+    return psf.with_figures(
+        energy=Later(lambda: rays() if psf.energy is None else psf.energy, estimate if costly else None)
+    )
 
 
-def _energy(lens: Lens, source: Source, psf: Psf, clip: bool) -> Figure:
-    return light_of_rays(lens, source, psf, clip) if psf.energy is None else psf.energy
+def _unknown() -> None:
+    return None
 
 
 def light_of_rays(lens: Lens, source: Source, psf: Psf, clip: bool) -> float:

@@ -38,17 +38,21 @@ Place = tuple[float, float] | np.ndarray | None
 class Later(Generic[Value]):
     """A value that is computed when it is first asked for, and once; the function is then let go.
 
-    ``costly``: as much as the picture, so that no warning asks for it.
+    ``estimate``: of a value that costs as much as the picture, for warnings, which are not worth that.
     """
 
-    def __init__(self, compute: Callable[[], Value], costly: bool = False) -> None:
+    def __init__(self, compute: Callable[[], Value], estimate: Callable[[], Value] | None = None) -> None:
         self._compute: Callable[[], Value] | None = compute
-        self._costly = costly
+        self._estimate = Later(estimate) if estimate else None
 
     @property
     def costly(self) -> bool:
-        """Return whether it is not computed yet, and costly."""
-        return self._costly and self._compute is not None
+        """Return whether it costs as much as the picture and is not computed yet."""
+        return self._estimate is not None and self._compute is not None
+
+    def roughly(self) -> Value:
+        """Return the estimate while it is `costly`, else the value."""
+        return self._estimate() if self._estimate and self.costly else self()
 
     def __call__(self) -> Value:
         """Return the value. Raises what its computation raises."""
@@ -266,9 +270,15 @@ class Psf:
         return float(np.hypot(self.error, np.sqrt(self.predicted_error / flatness)))
 
     @property
+    def _energy_roughly(self) -> Figure:
+        """Return the share of light, or an estimate while that costs as much as the picture."""
+        found = self.figures.energy
+        return found.roughly() if isinstance(found, Later) else self.energy
+
+    @property
     def _cut_off(self) -> Message | None:
-        unasked = isinstance(self.figures.energy, Later) and self.figures.energy.costly
-        least = 1.0 if unasked or self.energy is None or not np.size(self.energy) else float(np.min(self.energy))
+        energy = self._energy_roughly
+        least = 1.0 if energy is None or not np.size(energy) else float(np.min(energy))
         if least >= LEAST_LIGHT:
             return None
         return Message(
@@ -297,11 +307,12 @@ class Psf:
             parts.append(f"{self.wavelength_um * NM_PER_UM:.5g} nm")
         if isinstance(self.strehl, float):
             parts.append(f"Strehl ratio {self.strehl:.3g}")
-        if isinstance(self.energy, float):
-            parts.append(f"{100 * self.energy:.3g} % of the {IN_WINDOW}")
+        energy = self._energy_roughly
+        if isinstance(energy, float):
+            parts.append(f"{100 * energy:.3g} % of the {IN_WINDOW}")
         if self.shortfall:
             parts.append(f"1 − R² up to {min(float(self.predicted_error or 0.0), 1.0):.1e}")
-        if isinstance(self.energy, float) and self.energy < HALF_OF_LIGHT and self.l2_error:
+        if isinstance(energy, float) and energy < HALF_OF_LIGHT and self.l2_error:
             # R² compares with what little the light varies in such a window.
             parts.append(f"relative L2 error up to {min(self.l2_error, 1.0):.1e}")
         return f"<Psf: {', '.join(parts)}>"
