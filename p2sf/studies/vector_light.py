@@ -32,7 +32,7 @@ from p2sf.threads import one_blas_thread
 
 POLAR_NODES = 200  # of the analytic integrals
 WINDOW = 6.0, 129  # λ/NA on either side of the middle, and samples, where vector and scalar light are compared
-STEPS = 40  # of bisection
+STEPS = 24  # of bisection: to 5e-8
 
 
 @one_blas_thread
@@ -120,8 +120,9 @@ def aplanatic_field(na: float, radius: np.ndarray) -> AplanaticField:
 def scalar_error(na: float) -> float:
     """Return 1 − R² of a scalar sum over an even pupil against unpolarised light, both of a perfect lens in air."""
     axis = centred_axis(WINDOW[1], 2 * WINDOW[0] / na / WINDOW[1])
-    found = aplanatic_field(na, np.hypot(axis, axis[:, None]).ravel())
-    pictures = (picture.reshape(axis.size, -1) for picture in (found.scalar**2, found.unpolarised))
+    radii, place = np.unique(np.hypot(axis, axis[:, None]), return_inverse=True)
+    found = aplanatic_field(na, radii)
+    pictures = (picture[place].reshape(axis.size, -1) for picture in (found.scalar**2, found.unpolarised))
     return 1 - r_squared(*pictures)
 
 
