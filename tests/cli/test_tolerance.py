@@ -5,7 +5,7 @@ import re
 import pytest
 
 from p2sf.cli import main
-from p2sf.cli.tolerances import WORST
+from p2sf.cli.tolerances import WORST, _show_doubts
 from p2sf.errors import LensFileError
 from p2sf.lensfile.library import find_lens
 from p2sf.tolerance.builds import SUMMED_RMS
@@ -142,3 +142,20 @@ def test_what_loses_rays_has_no_figure_and_what_the_form_misses_is_said(answer, 
     said = capsys.readouterr().out
     assert "Rays are lost at ± the tolerance of: decentre y of surface 3." in said
     assert "is off for: thickness behind surface 3 (+" in said and "|mean of exp(2πiW)|²" in said
+
+
+def test_the_form_is_doubted_where_it_misses_a_tenth_of_a_harm_and_a_hundredth_of_the_largest(capsys):
+    rows = [
+        {"kind": kind, "first": 1, "last": 1, "harm": harm, "form_error": off}
+        for kind, harm, off in (
+            ("radius", 1.0, 0.09),
+            ("thickness", 0.1, 0.012),
+            ("tilt_x", 0.1, -0.012),
+            ("index", 0.05, 0.009),
+            ("decentre_x", 0.5, 0.06),
+        )
+    ]
+    _show_doubts(rows)
+    said = capsys.readouterr().out
+    assert said.count("surface") == 3 and "radius" not in said and "index" not in said
+    assert "thickness behind surface 1 (+12%)" in said and "(-12%)" in said and "(+12%)" in said

@@ -24,7 +24,7 @@ from p2sf.measure.fitting.pupil_nodes import lens_nodes
 from p2sf.measure.frame import Frame, FrameGeometry, Noise, calibrate
 from p2sf.measure.listings import listing_of, read_listing
 from p2sf.measure.measurement import FrameRequest, measure_frame, read_measurement, write_measurement
-from p2sf.measure.points import find_points, in_grid, window_half, window_of
+from p2sf.measure.points import FoundPoint, find_points, in_grid, window_half, window_of
 from p2sf.measure.reading import read_frame
 from p2sf.measure.simulation import Exposure, grid_of_points, lens_light, simulated_frame
 from p2sf.paraxial.seidel import coefficients
@@ -150,6 +150,25 @@ def test_light_of_a_neighbour_in_the_window_does_not_count(triplet):
     assert beside.values[~beside.good].max() > 0.9 * points[1].peak
     assert beside.values[beside.good & ~np.pad(np.ones((13, 13), bool), 12)].max() < 50 + 6 * 10
     assert beside.good[12:25, 12:25].all() and alone.good.all()
+
+
+@pytest.mark.parametrize(("down", "right"), [(-9, -10), (-9, 3), (4, -10), (9, 10), (0, 11), (-13, 0)])
+def test_light_of_a_point_across_an_edge_of_the_window_does_not_count(down, right):
+    """Every pixel as near to the other point as its light reaches, and none else, rows of the window towards +y."""
+    frame = Frame(np.arange(3600.0).reshape(60, 60), FrameGeometry(60, 60, PITCH))
+    own, other = (FoundPoint(30.0 + y, 30.0 + x, 0.0, 0.0, 1.0, 1.0, 2) for y, x in ((0, 0), (down, right)))
+    steps = np.arange(-8, 9)
+    near = (np.abs(steps - down)[:, None] <= 3) & (np.abs(steps - right) <= 3)
+    assert np.array_equal(window_of(frame, own, 8, others=[own, other]).good, ~near[::-1])
+
+
+def test_the_variance_of_counts_is_that_of_their_electrons():
+    """Poisson's variance is the mean: light/gain in counts², above the background where that is in the estimate."""
+    values, light = np.random.default_rng(1).normal(100.0, 4.0, (60, 60)), np.array([0.0, 100.0, 500.0])
+    geometry = FrameGeometry(60, 60, PITCH)
+    stated, estimated = (Frame(values, geometry, noise) for noise in (Noise(2.0, 3.0), Noise(2.0)))
+    assert stated.variance(light) == pytest.approx(9.0 + light / 2)
+    assert estimated.variance(light) == pytest.approx(16.0 + np.array([0.0, 0.0, 200.0]), rel=0.1, abs=0.5)
 
 
 @pytest.mark.slow

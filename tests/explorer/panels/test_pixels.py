@@ -35,6 +35,7 @@ def test_weights_count_every_sample_once():
     position = (np.arange(16) - 8) * 0.7
     weights = pixel_weights(position, 0.7, 1.9)
     assert weights.sum(0) == pytest.approx(np.ones(16)) and weights.shape[0] % 2 == 1
+    assert weights[0].any(), "the first pixel is not beyond the light"
 
 
 def test_the_share_of_an_airy_pattern_in_a_square_lies_between_its_circles():

@@ -227,3 +227,12 @@ def test_a_harm_that_is_none_or_that_the_form_misses_says_so(panel, window):
     lost, off = (table.item(row, 2) for row in (0, 1))
     assert lost.text() == LOST and lost.toolTip()
     assert significant(1.5 * harm, 2) in off.toolTip()
+
+
+def test_a_harm_is_written_where_it_is_a_thousandth_of_the_largest(panel, window):
+    view = analysis.figures(panel._found, window.store.state.tolerances)
+    harms = (0.2, 0.02, 3e-4, 1e-4, -0.003)
+    rows = tuple((one, place, harm) for (one, place, _), harm in zip(view.errors, harms, strict=False))
+    table = ErrorTable()
+    table.show_errors(replace(view, errors=rows, form_errors=(0.0,) * 5), window.store.state.tolerances)
+    assert [table.item(row, 2).text() for row in range(5)] == ["0.20", "0.020", "0.00030", "0", "−0.0030"]
