@@ -196,6 +196,10 @@ def test_a_glass_by_its_formula_stands_alone():
         ("[2.25]", '["a"]', "coefficients of X1 are not up to"),
         ("[0.4, 0.7]", "[0.7, 0.4]", "write the shortest and the longest wavelength"),
         ('name = "X1", ', "", "glass has the keys"),
+        *(
+            ("range_um", f"internal_transmittance = {records}, range_um", "write a list of .wavelength in µm, share")
+            for records in ("[[0.5, 0.9]]", "[[0.5, 0.9, 25, 1]]", "[0.5, 0.9, 25]", '[[0.5, 0.9, "25"]]', "0.9")
+        ),
     ],
 )
 def test_a_broken_formula_is_refused(old, new, words):

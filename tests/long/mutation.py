@@ -42,7 +42,16 @@ BESIDE = {  # where else a folder's numbers are read, by the beginning of its pa
 NOT_RUN = ("tests/test_package.py", "tests/explorer/i18n", "tests/explorer/handbook")  # read sources, not numbers
 SECONDS = 60.0  # of the processor, for the tests of one break
 BYTES = 8 << 30  # of memory, for a break that asks for too much
-EQUIVALENT: dict[tuple[str, str], str] = {}
+EQUIVALENT: dict[tuple[str, str], str] = {
+    (
+        "p2sf/measure/fitting/point_problem.py",
+        'xi, eta = np.meshgrid(line, line, indexing="ij")',
+    ): "the steepest slope over a square grid is that over the grid transposed",
+    (
+        "p2sf/pupil/domain.py",
+        "rho, held = np.sqrt((1 + square) / 2), (HELD_OUT_AROUND_DEG)",
+    ): "rays held out to judge a fit may have any directions",
+}
 """Of a file and a broken line, why nobody can tell it from the right one."""
 
 
