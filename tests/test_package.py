@@ -23,14 +23,14 @@ LAYERS = (
     "p2sf.api p2sf_explorer.i18n p2sf_explorer.state",
     "p2sf.sweep p2sf_explorer.compute",
     "p2sf.camera p2sf_explorer.charts p2sf_explorer.store p2sf_explorer.report p2sf_explorer.notebook_widget",
-    "p2sf_explorer.files p2sf_explorer.handbook",
+    "p2sf.cli p2sf_explorer.files p2sf_explorer.handbook",
     "p2sf_explorer.widgets",
     "p2sf_explorer.compare p2sf_explorer.lessons p2sf_explorer.scene3d",
     "p2sf_explorer.course",
     "p2sf_explorer.panels p2sf_explorer.playback",
     "p2sf_explorer.window",
     "p2sf_explorer.application",
-    "p2sf.cli",
+    "p2sf_explorer.commands",
     "p2sf_explorer.site",
 )
 FLOOR = {folder: floor for floor, line in enumerate(LAYERS) for folder in line.split()}

@@ -17,11 +17,14 @@ if TYPE_CHECKING:
 
 FAILED, INTERRUPTED = 2, 130
 STYLE = Style(parameter=flag)  # how every command puts messages into words
-COMMANDS = {
+COMMANDS = {  # by name: where it is, in a module of this folder unless another is named, and its summary
     "info": ("first_order:info", "First-order data of a lens: focal and principal points, stop, pupils, image."),
     "coefficients": ("first_order:coefficients_command", "The six wavefront coefficients and the Seidel sums."),
     "psf": ("images:psf", "The point spread function of one source, to a file or in a few figures."),
-    "report": ("reports:report", "What an engineer reads first of a lens; all of it as PDF, HTML or JSON."),
+    "report": (
+        "p2sf_explorer.commands:report",
+        "What an engineer reads first of a lens; all of it as PDF, HTML or JSON.",
+    ),
     "spot": ("spots:spot", "Where exact rays meet the sensor."),
     "tolerance": (
         "tolerances:tolerance",
@@ -37,8 +40,11 @@ COMMANDS = {
     "plan": ("scenes:plan_command", "The least model that a scene requires, each decision explained."),
     "image": ("scenes:image", "A picture through the lens, blurred as field, depth and colour demand."),
     "sharpen": ("scenes:sharpen", "A photo that the lens took, sharpened by the PSF of every place."),
-    "course": ("reports:course", "Sheets of the six lectures as PDF; the results of a class as a table."),
-    "explore": ("explore:explore", "The window: drag depth, field and wavelength, and watch."),
+    "course": (
+        "p2sf_explorer.commands:course",
+        "Sheets of the six lectures as PDF; the results of a class as a table.",
+    ),
+    "explore": ("p2sf_explorer.commands:explore", "The window: drag depth, field and wavelength, and watch."),
     "database": ("databases:app", "Every PSF of a lens as a file: build one, look into one."),
     "cluster": ("clusters:cluster", "How to render a stack on many machines, and who works there."),
     "export": ("exports:export", "A database or stack for ISETCam, FITS or ImageJ readers, or as a table."),
@@ -122,7 +128,7 @@ def _app() -> "App":
         config=check_whole_numbers,
     )
     for name, (place, summary) in COMMANDS.items():
-        app.command(f"p2sf.cli.{place}", name=name, help=summary)
+        app.command(place if "." in place else f"p2sf.cli.{place}", name=name, help=summary)
     return app
 
 

@@ -102,7 +102,7 @@ def test_an_export_and_a_stack_are_told_about_in_words(said, tmp_path):
 
 
 def test_the_window_without_its_libraries_says_what_to_install(monkeypatch, refused):
-    monkeypatch.setattr("p2sf.cli.explore.find_spec", lambda name: None)
+    monkeypatch.setattr("p2sf_explorer.commands.find_spec", lambda name: None)
     assert "PySide6" in refused("explore")
 
 

@@ -31,6 +31,7 @@ UNREACHED = (
     "p2sf.database.files",
     "p2sf.export.iset",
     "p2sf.export.psf_cube",
+    "p2sf_explorer.commands",
 )  # by any window
 FIELD, LETTERS = re.compile(r"\{[^{}]*\}"), re.compile(r"[^\W\d_]{2}")
 ERROR = "P2SFError"

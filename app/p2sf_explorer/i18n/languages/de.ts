@@ -1783,7 +1783,6 @@
 <message><source>one wavelength, no colour</source><translation>eine Wellenlänge, keine Farbe</translation></message>
 <message><source>one-sided rings and a moved peak</source><translation>einseitige Ringe und eine verschobene Spitze</translation></message>
 <message><source>only some columns of the lens have {name}; give it to all of them or to none</source><translation>nur manche Spalten des Objektivs haben {name}; allen oder keiner geben</translation></message>
-<message><source>only {count} fields have a focus, but a plane needs three; choose smaller fields</source><translation>{count} Felder haben einen Fokus, und eine Ebene braucht drei; kleinere Felder wählen</translation></message>
 <message><source>only {share:.0%} of the light lies in the window; take a larger one</source><translation>nur {share:.0%} des Lichts liegen im Fenster; ein größeres nehmen</translation></message>
 <message><source>open it: Zemax .zmx (also zipped), CODE V .seq, OSLO .len, ray-optics .roa, .json of ISET, Optiland, DeepLens, ray-optics-web and of patents, .fx of renderers, ISET .dat, Optical Bench .txt, .csv with named columns, .toml, or a saved state</source><translation>öffnet sie: Zemax .zmx (auch gezippt), CODE V .seq, OSLO .len, ray-optics .roa, .json von ISET, Optiland, DeepLens, ray-optics-web und von Patenten, .fx von Renderern, ISET .dat, Optical Bench .txt, .csv mit benannten Spalten, .toml oder ein gespeicherter Zustand</translation></message>
 <message><source>or</source><translation>oder</translation></message>
@@ -1889,7 +1888,6 @@
 <message><source>rim offset</source><translation>Versatz des Rands</translation></message>
 <message><source>rim rays</source><translation>Randstrahlen, Feld</translation></message>
 <message><source>rim rays of the field point</source><translation>Randstrahlen des Feldpunkts</translation></message>
-<message><source>rims and holes of mirrors obscure {share:.3g} of the pupil's radius, so no light passes; make them smaller</source><translation>Ränder und Löcher der Spiegel verdecken {share:.3g} des Pupillenradius, sodass kein Licht durchkommt; sie kleiner machen</translation></message>
 <message><source>rims clip</source><translation>mit Rändern</translation></message>
 <message><source>rims and the mask in the stop leave nothing open; leave {parameter} off</source><translation>Ränder und die Maske in der Blende lassen nichts offen; {parameter} weglassen</translation></message>
 <message><source>root of brightness</source><translation>Wurzel der Helligkeit</translation></message>
@@ -2632,7 +2630,6 @@
 <message><source>{parameter} is "{value}"; choose {choices}</source><translation>{parameter} ist "{value}"; {choices} wählen</translation></message>
 <message><source>{parameter} is None; give a distance, inf for infinity</source><translation>{parameter} ist None; einen Abstand angeben, inf für unendlich</translation></message>
 <message><source>{parameter} is for {method} fitted; leave it out</source><translation>{parameter} gilt für {method} fitted; weglassen</translation></message>
-<message><source>{parameter} is given twice; keep one of them</source><translation>{parameter} ist zweimal angegeben; eines davon behalten</translation></message>
 <message><source>{parameter} is given with {height}; give {angle} with it, or leave it out</source><translation>{parameter} ist mit {height} angegeben; dazu {angle} angeben oder es weglassen</translation></message>
 <message><source>{parameter} is {path}; {wanted}, choose a name that ends in {ending}</source><translation>{parameter} ist {path}; {wanted}, einen Namen wählen, der auf {ending} endet</translation></message>
 <message><source>{parameter} is {value:g} %; give 0 or more, 0 where the f-number is known exactly</source><translation>{parameter} ist {value:g} %; 0 oder mehr angeben, 0 bei genau bekannter Blendenzahl</translation></message>

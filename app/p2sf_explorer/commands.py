@@ -1,5 +1,6 @@
-"""`p2sf report`, what an engineer reads first of a lens; `p2sf course`, sheets of lectures and results of a class."""
+"""The commands of `p2sf` that need the explorer: its window, the report on a lens, sheets and results of the course."""
 
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -7,10 +8,12 @@ from cyclopts import Parameter
 
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, check_output
 from p2sf.cli.screen import percent_line, print_json, print_table, warn
-from p2sf.errors import ExportError
+from p2sf.errors import ExportError, P2SFError
 from p2sf.lens.misalignment import misalignments
+from p2sf.messages import Message
 from p2sf.paraxial.lens_checks import negative_glass
 
+What = Annotated[str | None, Parameter(help="A lens, or a STATE.json, a snapshot or a p2sf:… link of the explorer.")]
 ENDINGS = ".pdf", ".html", ".json"
 Fields = Annotated[
     tuple[float, ...],
@@ -28,6 +31,20 @@ Sheets = Annotated[
 Language = Annotated[str, Parameter(help="Language of the sheets, such as en or de.")]
 PaperName = Annotated[Literal["a4", "letter"], Parameter(help="Paper of the sheets.")]
 Clip = Annotated[bool, Parameter(negative="", help="Stop rays at every clear semi-diameter.")]
+
+
+def explore(what: What = None, /) -> int:
+    """Open the explorer on a lens, a saved state, a snapshot or a link, else as it was left; return its exit code."""
+    missing = [name for name in ("PySide6", "pyqtgraph") if find_spec(name) is None]
+    if missing:
+        both = Message("{one} and {other}", one=missing[0], other=missing[-1])
+        raise P2SFError(
+            "the explorer needs {packages}, not installed here; run pip install 'p2sf[app]'",
+            packages=both if len(missing) > 1 else missing[0],
+        )
+    from p2sf_explorer.application.main import main
+
+    return int(main([what] if what else []))
 
 
 def report(
