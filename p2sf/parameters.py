@@ -10,7 +10,7 @@ import numpy as np
 from p2sf.arguments import first_place
 from p2sf.conventions import FARTHEST_MM, UM_PER_MM
 from p2sf.errors import RequestError
-from p2sf.messages import Message
+from p2sf.messages import Message, Style
 
 LARGEST_OBSCURATION = 0.99
 MOST_VANES, WIDEST_VANE = 12, 0.5
@@ -26,6 +26,10 @@ FARTHER = "{parameter} is {value:g}{unit}, but rays from beyond {most:g} mm are 
 def flag(name: str) -> str:
     """Return the option of the command line that sets a parameter: ``--field-deg`` for ``field_deg``."""
     return f"--{name.replace('_', '-')}"
+
+
+COMMAND_LINE = Style(parameter=flag)
+"""How every command puts messages into words."""
 
 
 def control(name: str) -> str:

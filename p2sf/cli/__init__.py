@@ -8,15 +8,14 @@ from io import TextIOWrapper
 from typing import TYPE_CHECKING, TextIO
 
 from p2sf.errors import FileWarning, P2SFError
-from p2sf.messages import Style, printable
-from p2sf.parameters import flag
+from p2sf.messages import printable
+from p2sf.parameters import COMMAND_LINE
 from p2sf.version import version_text
 
 if TYPE_CHECKING:
     from cyclopts import App, CycloptsError
 
 FAILED, INTERRUPTED = 2, 130
-STYLE = Style(parameter=flag)  # how every command puts messages into words
 COMMANDS = {  # by name: where it is, in a module of this folder unless another is named, and its summary
     "info": ("first_order:info", "First-order data of a lens: focal and principal points, stop, pupils, image."),
     "coefficients": ("first_order:coefficients_command", "The six wavefront coefficients and the Seidel sums."),
@@ -77,7 +76,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except CycloptsError as error:
         return _fail(_usage(error))
     except P2SFError as error:
-        return _fail(error.message.text(STYLE))
+        return _fail(error.message.text(COMMAND_LINE))
     except BrokenPipeError:
         _forget_output()  # the reader, such as `head`, has seen enough
         return 0

@@ -1,10 +1,11 @@
 """`p2sf psf --spectrum`: the colour PSF of a point that is not of one wavelength."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from p2sf.cli.cautions import TOO_COARSE
 from p2sf.cli.options import check_output
+from p2sf.cli.picture_options import Picture
 from p2sf.cli.screen import Row, heading, print_json, print_table, warn
 from p2sf.colour.colorimetry import chromaticity
 from p2sf.colour.spectrum import spectrum_of
@@ -18,11 +19,8 @@ from p2sf.psf.polychromatic import ColourPsf, colour_psf, record, suitable_pitch
 from p2sf.psf.result import IN_WINDOW
 from p2sf.setting import Setup
 
-if TYPE_CHECKING:
-    from p2sf.cli.images import Picture
 
-
-def colour(setup: Setup, spectrum: str, picture: "Picture", output: Path | None, as_json: bool) -> None:
+def colour(setup: Setup, spectrum: str, picture: Picture, output: Path | None, as_json: bool) -> None:
     """Compute, write and report the colour PSF of a setup; ``picture`` is how each wavelength's PSF is made."""
     wanted = spectrum_of(spectrum)
     check_output(output, COLOUR_ENDINGS)

@@ -195,7 +195,8 @@ def _check_output(output: str, stack: bool) -> None:
 
 def _write_stack(database: Database, lens: Lens, output: str, kind: DatabaseKind) -> None:
     """Fill a stack, with a line of progress on a terminal."""
-    from p2sf.database.files.stack_write import StackProgress, StackStatus, write_stack
+    from p2sf.database.files.stack_work import StackProgress, StackStatus
+    from p2sf.database.files.stack_write import write_stack
 
     def tell(now: StackStatus) -> None:
         line = f"{now.done} of {now.total} chunks, {now.psfs_per_second:.0f} PSFs/s, {now.seconds_left:.0f} s left"

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from p2sf.cli.cautions import caution, open_lens
-from p2sf.cli.images import USUAL, Picture, SetOptions
 from p2sf.cli.lookups import is_database
 from p2sf.cli.options import check_output
+from p2sf.cli.picture_options import USUAL, Picture, SetOptions
 from p2sf.cli.screen import Row, percent_line, print_json, print_table, warn
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import RequestError

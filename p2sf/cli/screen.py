@@ -8,11 +8,11 @@ from math import isinf
 from time import perf_counter
 from typing import Any
 
-from p2sf.cli import STYLE
 from p2sf.files.writing import plain
 from p2sf.image.progress import seconds_left
 from p2sf.lens.source import Source
 from p2sf.messages import Message, printable
+from p2sf.parameters import COMMAND_LINE
 from p2sf.setting import Setup
 
 Row = tuple[object, ...]
@@ -54,7 +54,7 @@ def text(value: object) -> str:
         return "–"
     if isinstance(value, float):
         return ("−∞" if value < 0 else "∞") if isinf(value) else f"{value + 0.0:.6g}"
-    return value.text(STYLE) if isinstance(value, Message) else printable(str(value))
+    return value.text(COMMAND_LINE) if isinstance(value, Message) else printable(str(value))
 
 
 def warn(message: Message | None) -> None:

@@ -25,7 +25,8 @@ from p2sf.database.cost import products
 from p2sf.database.files.npz import database_bytes
 from p2sf.database.files.place import size_bytes
 from p2sf.database.files.stack import Stack
-from p2sf.database.files.stack_write import StackProgress, chunk_costs, psf_count, write_chunk, write_stack
+from p2sf.database.files.stack_work import StackProgress, chunk_costs, psf_count, write_chunk
+from p2sf.database.files.stack_write import write_stack
 from p2sf.database.render import Sampling
 from p2sf.database.space import Space
 from p2sf.lensfile.library import find_lens

@@ -16,7 +16,8 @@ from p2sf.cli import main
 from p2sf.cluster import connect
 from p2sf.database.files.stack import open_stack
 from p2sf.database.files.stack_cluster import fill_chunks
-from p2sf.database.files.stack_write import StackProgress, write_stack
+from p2sf.database.files.stack_work import StackProgress
+from p2sf.database.files.stack_write import write_stack
 from p2sf.errors import ClusterError, DatabaseError
 from tests.database.test_stack import SAMPLING, contents, small
 from tests.support.cluster import running_cluster

@@ -6,7 +6,8 @@ from math import inf
 import pytest
 
 from p2sf.database.cost import products
-from p2sf.database.files.stack_write import StackProgress, StackWork, write_stack
+from p2sf.database.files.stack_work import StackProgress, StackWork
+from p2sf.database.files.stack_write import write_stack
 from p2sf.database.render import fine_sampling
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.seidel import coefficients

@@ -10,7 +10,8 @@ import pytest
 import p2sf
 from p2sf.conventions import centred_axis
 from p2sf.database.build import INTERPOLANTS, build_database
-from p2sf.database.files.npz import MARK, database_bytes, database_from_bytes, same_database
+from p2sf.database.files.npz import database_bytes, database_from_bytes, same_database
+from p2sf.database.files.packing import MARK
 from p2sf.database.files.provenance import Stored, provenance
 from p2sf.database.files.sealed import seal, unseal
 from p2sf.database.fitted_build import build_fitted

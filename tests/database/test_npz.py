@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from p2sf.database.build import INTERPOLANTS, build_database
-from p2sf.database.files.npz import MARK, load_database, save_database
+from p2sf.database.files.npz import load_database, save_database
+from p2sf.database.files.packing import MARK
 from p2sf.database.files.sealed import DIGITS, read_sealed, write_sealed
 from p2sf.database.parts import KINDS
 from p2sf.database.space import Space

@@ -7,7 +7,8 @@ from fsspec.core import url_to_fs
 from p2sf.cli import main
 from p2sf.database.files.place import is_url, place_of, size_bytes
 from p2sf.database.files.stack import open_stack, read_psfs
-from p2sf.database.files.stack_write import StackProgress, write_stack
+from p2sf.database.files.stack_work import StackProgress
+from p2sf.database.files.stack_write import write_stack
 from p2sf.errors import DatabaseError
 from p2sf.export.psf_cube import open_cube
 from tests.database.test_stack import SAMPLING, contents, small

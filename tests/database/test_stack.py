@@ -16,7 +16,8 @@ import pytest
 from p2sf.conventions import slope_from_degrees
 from p2sf.database.build import build_database
 from p2sf.database.files.stack import chunk_shape, open_stack, read_psfs
-from p2sf.database.files.stack_write import StackProgress, psf_count, write_stack
+from p2sf.database.files.stack_work import StackProgress, psf_count
+from p2sf.database.files.stack_write import write_stack
 from p2sf.database.render import Sampling, rendered_light
 from p2sf.database.space import Space
 from p2sf.errors import DatabaseError

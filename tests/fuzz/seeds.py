@@ -10,7 +10,8 @@ import tifffile
 from PIL import Image
 
 from p2sf.database.build import build_database
-from p2sf.database.files.npz import MARK, database_bytes
+from p2sf.database.files.npz import database_bytes
+from p2sf.database.files.packing import MARK
 from p2sf.database.files.sealed import seal
 from p2sf.database.space import Space
 from p2sf.io.photo_files import write_photo

@@ -15,7 +15,8 @@ import numpy as np
 
 from p2sf.cli import main
 from p2sf.database.build import build_database
-from p2sf.database.files.npz import MARK, database_bytes, database_from_bytes
+from p2sf.database.files.npz import database_bytes, database_from_bytes
+from p2sf.database.files.packing import MARK
 from p2sf.database.files.sealed import DIGITS, SEAL, seal, unseal
 from p2sf.database.space import Space
 from p2sf.errors import P2SFError

@@ -28,7 +28,8 @@ import numpy as np
 from p2sf.conventions import slope_from_degrees
 from p2sf.database.build import build_database
 from p2sf.database.files.stack import open_stack
-from p2sf.database.files.stack_write import StackProgress, StackStatus, write_stack
+from p2sf.database.files.stack_work import StackProgress, StackStatus
+from p2sf.database.files.stack_write import write_stack
 from p2sf.database.render import Sampling
 from p2sf.database.space import Space
 from p2sf.errors import DatabaseError

@@ -14,6 +14,8 @@ from numpy.typing import ArrayLike
 from p2sf.arguments import check_arguments
 from p2sf.conventions import NM_PER_UM, degrees_from_slope
 from p2sf.database.accuracy import DatabaseAccuracy, accuracy, accuracy_from
+from p2sf.database.files.packing import pack
+from p2sf.database.files.sealed import write_sealed
 from p2sf.database.points import points_of, psfs_into
 from p2sf.database.render import Database, Sampling, pixels_psf
 from p2sf.database.space import Space
@@ -222,10 +224,8 @@ class Stored:
 
     def save(self, path: str | PathLike[str]) -> Path:
         """Write the database as a .npz file, which `p2sf.open_database` opens; ExportError where that is impossible."""
-        from p2sf.database.files.npz import save_stored
-
         check_ending("path", path, ".npz", Message("a database is a .npz file"))
-        return save_stored(self, path)
+        return write_sealed(path, pack(self.database, self.meta))
 
     @check_arguments
     def psf(

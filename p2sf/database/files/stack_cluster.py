@@ -21,7 +21,7 @@ from p2sf.cluster import (
 )
 from p2sf.database.files.place import Place
 from p2sf.database.files.stack import Chunk, Stack, open_stack
-from p2sf.database.files.stack_write import StackWork, write_chunk
+from p2sf.database.files.stack_work import StackWork, write_chunk
 from p2sf.errors import ClusterError, DatabaseError
 from p2sf.threads import one_blas_thread
 from p2sf.version import program_version

@@ -1,47 +1,22 @@
 """Filling a PSF stack chunk by chunk, by the threads of this machine or by the workers of a cluster."""
 
-import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
 
-import numpy as np
-
-from p2sf.database.cost import products
 from p2sf.database.files.npz import database_bytes, same_database
 from p2sf.database.files.place import exists, failures, place_of
 from p2sf.database.files.stack import TEMPORARY, Chunk, Stack, create, open_stack
-from p2sf.database.render import Database, Sampling, critical_pixel_um, fine_sampling, light_of, samples_per_pixel
+from p2sf.database.files.stack_work import StackProgress, StackWork, write_chunk
+from p2sf.database.render import Database, Sampling, critical_pixel_um, samples_per_pixel
 from p2sf.errors import DatabaseError
 from p2sf.files.reasons import reason
 from p2sf.lens.lens import Lens
 from p2sf.threads import for_each
 
-
-@dataclass(frozen=True)
-class StackStatus:
-    """Progress of a stack: finished and total chunks, the PSFs of this run and its rate, the remaining time."""
-
-    done: int
-    total: int
-    psfs: int
-    psfs_per_second: float
-    seconds_left: float
-
-
-@dataclass(frozen=True)
-class StackProgress:
-    """``progress(now)`` is called after each chunk, ``cancelled()`` before and after: True ends the filling."""
-
-    progress: Callable[[StackStatus], None] = lambda now: None
-    cancelled: Callable[[], bool] = lambda: False
-
-
 UNWATCHED = StackProgress()
 USUAL = Sampling()
-COSTS_AT_ONCE = 1000  # chunks whose costs are computed together, which takes some mebibytes
 
 
 def write_stack(
@@ -100,57 +75,6 @@ def _write_errors(path: str | PathLike[str]) -> Iterator[None]:
         ) from error
 
 
-class StackWork:
-    """The missing chunks of a stack, the most expensive first, so that at the end no worker waits for a long one.
-
-    ``costs``: about how many products each takes that is not done (`database.cost`).
-    """
-
-    def __init__(self, stack: Stack, missing: Sequence[Chunk], watch: StackProgress) -> None:
-        self.stack, self.watch = stack, watch
-        costs = chunk_costs(stack, missing)
-        order = np.argsort(-costs, kind="stable").tolist()
-        self.chunks = [missing[k] for k in order]
-        self.costs = {missing[k]: float(costs[k]) for k in order}
-        self._left = float(costs.sum())
-        self._before = len(stack.chunks) - len(missing)
-        self._start, self._cost, self._psfs, self._done = time.monotonic(), 0.0, 0, 0
-
-    def finished(self, chunk: Chunk) -> None:
-        """Count a written chunk and report it to the watch."""
-        cost = self.costs.pop(chunk)
-        self._cost, self._left = self._cost + cost, self._left - cost
-        self._psfs, self._done = self._psfs + psf_count(self.stack, chunk), self._done + 1
-        seconds = max(time.monotonic() - self._start, 1e-9)
-        left = seconds / self._cost * self._left if self.costs else 0.0
-        done, total = self._before + self._done, self._before + self._done + len(self.costs)
-        self.watch.progress(StackStatus(done, total, self._psfs, self._psfs / seconds, left))
-
-
-def psf_count(stack: Stack, chunk: Chunk) -> int:
-    """Return the number of PSFs in a chunk."""
-    return int(np.prod([part.stop - part.start for part in stack.region(chunk)]))
-
-
-def chunk_costs(stack: Stack, chunks: Sequence[Chunk]) -> np.ndarray:
-    """Return the estimated products of each chunk, from the first and last field at its middle depth and colour."""
-    database, space = stack.stored.database, stack.stored.database.space
-    regions = [stack.region(chunk) for chunk in chunks]
-    middle = [[(part.start + part.stop) // 2 for part in region] for region in regions]
-    of_chunks = [space.radial_slopes[region[1:-1]].ravel() for region in regions]
-    ends = np.array([[slopes[0], slopes[-1]] for slopes in of_chunks]).reshape(-1, 2)
-    depth, *_, colour = np.array(middle, dtype=int).reshape(-1, len(space.nodes)).T
-    sampling = stack.sampling
-    if stack.across > 1:
-        sampling = fine_sampling(sampling, stack.pixel_um, stack.across)
-    found = np.zeros(len(chunks))
-    for some in np.array_split(np.arange(len(chunks)), len(chunks) // COSTS_AT_ONCE + 1):
-        points = space.depths_mm[depth[some], None], ends[some]
-        coefficients = database.coefficients(*points, space.wavelengths_um[colour[some], None])
-        found[some] = products(coefficients, sampling.pixels, stack.pixel_um / stack.across).mean(-1)
-    return found * [psf_count(stack, chunk) for chunk in chunks]
-
-
 class _Stopped(Exception):
     """The caller has cancelled."""
 
@@ -170,10 +94,3 @@ def _fill_here(work: StackWork, threads: int | None) -> None:
     if not work.watch.cancelled():
         with suppress(_Stopped):
             for_each(written, work.chunks, count, threads)
-
-
-def write_chunk(stack: Stack, chunk: Chunk) -> None:
-    """Render the PSFs of a chunk in this thread and write them atomically."""
-    space, region = stack.stored.database.space, stack.region(chunk)
-    points = np.ix_(*(nodes[part] for nodes, part in zip(space.nodes, region, strict=True)))
-    stack.psf[region] = light_of(stack.stored.database, points, stack.sampling, stack.across, threads=1)
