@@ -8,6 +8,7 @@ import pytest
 
 from p2sf.errors import GeometryError, LensFileError
 from p2sf.glass.media import MIRROR, ConstantIndex
+from p2sf.lens.freeform import XYPolynomial
 from p2sf.lens.irregularity import Irregularity
 from p2sf.lens.lens import check_aligned, seen_from
 from p2sf.lens.placement import Placement
@@ -18,6 +19,7 @@ from p2sf.lensfile.writing import write_lens
 from p2sf.messages import Message
 from p2sf.pupil.quadrature import whole_disc
 from p2sf.raytrace.pencil import displayed_opd, hexapolar, pencil
+from p2sf.raytrace.trace import trace
 from p2sf.raytrace.zernike_fit import zernike_fit
 from tests.support.lenses.simple_lenses import in_the_stop
 
@@ -89,6 +91,22 @@ def test_two_irregularities_over_different_radii_add():
     both = one.added(other.fringes, other.fringes_45, other.normalisation_mm)
     sag = one.sag_and_gradient(x, y)[0] + other.sag_and_gradient(x, y)[0]
     assert both.sag_and_gradient(x, y)[0] == pytest.approx(sag, abs=1e-15)
+
+
+def test_an_irregular_freeform_refracts_about_the_normal_of_both():
+    """Snell's law in vectors; the normal is that of central differences of the whole sag, good to 1e-9."""
+    lens = in_the_stop(ConstantIndex(1.5), Irregularity(60.0, -40.0, 5.0))
+    surface = replace(lens.surfaces[0], shape=XYPolynomial((0.0, 0.0, 0.02, -0.05, 0.03, 0.01), 5.0))
+    lens, way, step = replace(lens, surfaces=(surface, lens.surfaces[1])), np.array([0.0, 0.0, 1.0]), 1e-4
+    starts = np.array([[1.0, 2.0, -3.0], [-2.5, 1.5, -3.0], [0.5, -3.0, -3.0]])
+    met, behind = trace(lens, starts, np.broadcast_to(way, (3, 3)), UM).points[1:3]
+    for (x, y, _), found in zip(met, behind - met, strict=True):
+        across = surface.sag(x + step, y) - surface.sag(x - step, y)
+        up = surface.sag(x, y + step) - surface.sag(x, y - step)
+        normal = np.array([-across, -up, 2 * step]) / np.linalg.norm([across, up, 2 * step])
+        bent = (way - (way @ normal) * normal) / 1.5
+        bent = bent + np.sqrt(1 - bent @ bent) * normal
+        assert found / np.linalg.norm(found) == pytest.approx(bent, abs=1e-8) and np.hypot(across, up) > 1e-3 * step
 
 
 def test_a_lens_file_keeps_an_irregular_surface_and_other_formats_refuse_it(tmp_path):
