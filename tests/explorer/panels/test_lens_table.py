@@ -176,6 +176,18 @@ def test_an_inserted_plane_changes_no_coefficient(number):
     assert delete_surface(insert_surface(lens, number), number + 1) == lens
 
 
+def test_where_a_surface_is_deleted_all_others_stay():
+    lens = load(LENS)
+    for number in set(range(1, len(lens.surfaces) + 1)) - {lens.stop_surface}:
+        left = delete_surface(lens, number)
+        stayed = np.delete(np.asarray(lens.vertices), number - 1)
+        assert np.diff(left.vertices) == pytest.approx(np.diff(stayed), abs=1e-12)
+        assert (
+            left.surfaces[left.stop_surface - 1] == lens.surfaces[lens.stop_surface - 1]
+            or number == lens.stop_surface + 1
+        )
+
+
 def test_what_cannot_be_deleted_is_a_sentence():
     with pytest.raises(GeometryError, match="surface 6 is the stop"):
         delete_surface(load(LENS), 6)
