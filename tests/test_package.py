@@ -1,13 +1,12 @@
-"""The package holds: folders import only downwards, the core knows no Qt, and importing does no work."""
+"""The package holds: imports run downwards and in no circle, the core knows no Qt, and importing does no work."""
 
-import ast
-from collections.abc import Iterator
-from functools import cache
 from pathlib import Path
 
+from tests.support.imports import circles, graph, imports, module_paths, upward_imports
 from tests.support.interpreter import loaded_by
 
 ROOT = Path(__file__).parents[1]
+MODULES = tuple(module_paths(ROOT))
 # A folder imports from those on the lines above its own and from itself; those of the first line from each other too.
 LAYERS = (
     "p2sf.conventions p2sf.messages p2sf.errors p2sf.arguments p2sf.parameters p2sf.spans p2sf.threads p2sf.version "
@@ -34,6 +33,25 @@ LAYERS = (
     "p2sf_explorer.site",
 )
 FLOOR = {folder: floor for floor, line in enumerate(LAYERS) for folder in line.split()}
+# What a PSF is asked for (`Psf.mtf`, `plot`, `save`) lies above it: its methods call the public functions.
+OF_A_PSF = {
+    ("p2sf.psf.result", name)
+    for name in (
+        "p2sf.io.psf_files.write_psf",
+        "p2sf.io.psf_plot.draw_psf",
+        "p2sf.metrics.measures.Energy",
+        "p2sf.metrics.measures.LineSpread",
+        "p2sf.metrics.measures.Mtf",
+        "p2sf.metrics.samples.energy_of_psf",
+        "p2sf.metrics.samples.line_spread_of_psf",
+        "p2sf.metrics.samples.mtf_of_psf",
+    )
+}
+# A lens holds its zoom positions, which are lenses; a chart holds its hand and what paints it, which read the chart.
+FOR_TYPES_ALONE = (
+    frozenset({"p2sf.lens.lens", "p2sf.lens.positions"}),
+    frozenset(f"p2sf_explorer.charts.{name}" for name in ("axes", "chart", "crosshair", "hand")),
+)
 QT = {"PySide6", "pyqtgraph", "pyvista"}
 WITHOUT_QT = (
     "p2sf.",
@@ -44,63 +62,36 @@ WITHOUT_QT = (
 )
 
 
-def sources() -> list[Path]:
-    found = (path for folder in ("p2sf", "app/p2sf_explorer") for path in (ROOT / folder).rglob("*.py"))
-    return sorted(found)
-
-
 def folder_of(name: str) -> str:
     return ".".join(name.split(".")[:2])
 
 
-def module_of(path: Path) -> str:
-    inside = path.relative_to(ROOT / "app" if "app" in path.parts else ROOT)
-    return ".".join(inside.with_suffix("").parts).removesuffix(".__init__")
-
-
-@cache
-def imported(path: Path) -> set[str]:
-    """Return every module, or name in a module, that a file imports, inside functions too."""
-    found = set()
-    for node in statements(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.ImportFrom):
-            found |= {f"{node.module}.{alias.name}" for alias in node.names}
-        elif isinstance(node, ast.Import):
-            found |= {alias.name for alias in node.names}
-    return found
-
-
-def statements(node: ast.AST) -> Iterator[ast.AST]:
-    """Yield a node and all statements in it, but no expressions, which are nine tenths of a file and import nothing."""
-    yield node
-    for part in ("body", "orelse", "finalbody", "handlers", "cases"):
-        for inner in getattr(node, part, ()):
-            yield from statements(inner)
-
-
 def test_folders_import_only_downwards():
-    upwards = []
-    for path in sources():
-        own = folder_of(module_of(path))
-        for name in imported(path):
-            other = folder_of(name)
-            if own in FLOOR and other in FLOOR and other != own and FLOOR[other] >= max(FLOOR[own], 1):
-                upwards.append(f"{module_of(path)} imports {name} from above")
-    assert not upwards
+    upwards = {(one.module, one.name) for one in upward_imports(ROOT, FLOOR)}
+    assert upwards == OF_A_PSF
+
+
+def test_no_circle_between_files():
+    """Nor by imports within functions; those for types alone are listed."""
+    towards = graph(ROOT)
+    towards["p2sf.psf.result"] -= {name.rpartition(".")[0] for _, name in OF_A_PSF}
+    assert not circles(towards)
+    towards = graph(ROOT, with_types=True)
+    towards["p2sf.psf.result"] -= {name.rpartition(".")[0] for _, name in OF_A_PSF}
+    assert circles(towards) == sorted(FOR_TYPES_ALONE, key=sorted)
 
 
 def test_private_modules_stay_in_their_folder():
     foreign = []
-    for path in sources():
-        for name in imported(path):
-            private = any(part.startswith("_") and part[1] != "_" for part in name.split(".")[2:-1])
-            if private and folder_of(name) != folder_of(module_of(path)):
-                foreign.append(f"{module_of(path)} imports {name}")
+    for one in imports(ROOT):
+        private = any(part.startswith("_") and part[1] != "_" for part in one.name.split(".")[2:-1])
+        if private and folder_of(one.name) != folder_of(one.module):
+            foreign.append(f"{one.module} imports {one.name}")
     assert not foreign
 
 
 def test_every_folder_has_its_floor():
-    folders = {folder_of(module_of(path)) for path in sources()} - {
+    folders = {folder_of(name) for name in MODULES} - {
         "p2sf",
         "p2sf.__main__",
         "p2sf_explorer",
@@ -109,20 +100,15 @@ def test_every_folder_has_its_floor():
     assert folders == set(FLOOR)
 
 
-def test_no_folder_is_crowded():
-    for folder in {path.parent for path in sources()} - {ROOT / "app/p2sf_explorer/panels"}:
-        assert 2 <= len(list(folder.glob("*.py"))) <= 25, folder
-
-
 def test_what_computes_loads_no_qt():
     """All in one process, which is as good: whichever of them loads Qt, it is there."""
-    names = [n for n in map(module_of, sources()) if f"{n}.".startswith(WITHOUT_QT) and not n.endswith("__main__")]
+    names = [n for n in MODULES if f"{n}.".startswith(WITHOUT_QT) and not n.endswith("__main__")]
     assert not {name.split(".")[0] for name in loaded_by(f"import {', '.join(names)}")} & QT
 
 
 def test_heavy_libraries_are_loaded_on_use():
     heavy = {"matplotlib", "rich", "tifffile", "yaml", "PIL", "zarr", "dask", "astropy"}
-    names = [n for n in map(module_of, sources()) if n.startswith("p2sf.") and folder_of(n) != "p2sf.cli"]
+    names = [n for n in MODULES if n.startswith("p2sf.") and folder_of(n) != "p2sf.cli"]
     loaded = loaded_by(f"import {', '.join(n for n in names if not n.endswith('__main__'))}")
     assert not {name.split(".")[0] for name in loaded} & heavy
     assert not loaded & {"scipy.optimize", "scipy.interpolate"}
