@@ -157,3 +157,16 @@ def test_where_no_ray_arrives_every_sum_says_so(method):
     lens = find_lens("schmidt_camera")
     with pytest.raises(GeometryError, match="no ray but the chief ray"):
         p2sf.render(lens, Source(5.0), method, pixels=2, pixel_um=3.0)
+
+
+def test_far_samples_of_a_cut_off_blur_warn_by_its_rays_and_sum_no_second_picture(monkeypatch):
+    """A disc of light, 40 µm of radius, on 8 pixels of 5 µm: the square holds (40/40)²/π of it, by areas."""
+    lens, pixel_um = find_lens("achromat_f6"), 5.0
+    lens = with_sensor(lens, lens.sensor_mm + 12 * 0.04)  # at f/6 the rays spread by a twelfth of the way
+    with monkeypatch.context() as patch:
+        patch.setattr(pixel_integrals, "light_per_pixel", lambda *given: pytest.fail("a second picture is summed"))
+        with pytest.warns(p2sf.P2SFWarning, match="holds 3"):
+            psf = p2sf.render(lens, Source(), "traced", pixels=8, pixel_um=pixel_um, integrated=False)
+        assert psf.figures.energy.roughly() == pytest.approx(1 / np.pi, abs=0.02)
+        assert "% of the light" in repr(psf)
+    assert psf.energy == pytest.approx(1 / np.pi, abs=0.03)  # diffraction at the edges of a disc of 40 µm
