@@ -23,23 +23,19 @@ from p2sf.tolerance.single import INVALID, form_errors, sensitivities
 
 COLUMNS: dict[Criterion, str] = {
     "rms_waves": "adds to the worst RMS, waves",
-    "strehl": "takes from the least Strehl ratio without tilt",
+    "strehl": "takes from the least Strehl ratio",
     "mtf": "takes from the least contrast",
     "boresight_um": "moves the image by, µm",
 }
 WORST: dict[Criterion, str] = {
     "rms_waves": "RMS at most, waves",
-    "strehl": "Strehl ratio without tilt at least",
+    "strehl": "Strehl ratio at least",
     "mtf": "contrast at least",
     "boresight_um": "shift of the image at most, µm",
 }
 MOST_BUILDS, SHOWN = 1_000_000, 12
 NOTICED = 0.01  # of the largest harm: errors of the form below that are not told
-STREHL = (
-    "Strehl ratio without tilt: |mean of exp(2πiW)|² of the phase W at the focus, without piston and the tilt that "
-    "leaves least variance, weighted as the field; the peak, of which p2sf psf tells the Strehl ratio, is higher if it "
-    f"is elsewhere. 0 beyond an RMS of {SUMMED_RMS:g} waves."
-)
+STREHL = f"Strehl ratio: of the peak, as p2sf psf tells it; 0 beyond an RMS of {SUMMED_RMS:g} waves."
 LARGEST_SEED = 2**63 - 1
 PERCENTILES = 10, 50, 90
 
@@ -50,7 +46,7 @@ RmsLimit = Annotated[
     float | None, Parameter(help="A good lens has at most this RMS wavefront at every field, waves.", negative="")
 ]
 StrehlLimit = Annotated[
-    float | None, Parameter(help="A good lens has at least this Strehl ratio without tilt at every field.", negative="")
+    float | None, Parameter(help="A good lens has at least this Strehl ratio at every field.", negative="")
 ]
 MtfLimit = Annotated[
     float | None, Parameter(help="A good lens has at least this contrast at every field.", negative="")
@@ -210,7 +206,7 @@ def show(setup: Setup, sources: Sequence[Source], record: dict[str, Any]) -> Non
     if "strehl" in record["designed"]:
         print(STREHL)
     within = record["within"]
-    asked = {"RMS ≤": within["rms_waves"], "Strehl ratio without tilt ≥": within["strehl"], "contrast ≥": within["mtf"]}
+    asked = {"RMS ≤": within["rms_waves"], "Strehl ratio ≥": within["strehl"], "contrast ≥": within["mtf"]}
     asked["µm of the image's shift ≤"] = within["boresight_um"]
     words = " and ".join(f"{name} {value:g}" for name, value in asked.items() if value is not None)
     if words:

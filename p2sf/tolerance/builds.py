@@ -15,6 +15,7 @@ from p2sf.threads import one_blas_thread
 from p2sf.tolerance.contrast import NEAR, Pairs, at_frequency, pairs_of
 from p2sf.tolerance.differentials import NODES, Differentials
 from p2sf.tolerance.errors_of_build import IRREGULAR, Tolerance
+from p2sf.tolerance.strehl import strehl_ratios
 
 TOGETHER = 500  # builds at a time
 FEW_RAYS_RMS = 0.15  # waves up to which the rays of the differentials resolve exp(2πiW)
@@ -28,9 +29,8 @@ class Builds:
     """Random builds: ``errors`` (builds, errors) in the units of the tolerances, compensators included.
 
     ``rms_waves`` (builds, fields): of the displayed wavefront without piston and tilt, as in `zernike_fit`.
-    ``strehl``: |mean of exp(2πiW)|² of the phase at the focus without these, weighted as the field, and 0 beyond
-    `SUMMED_RMS`; `Psf.strehl` is of the peak, which is higher if it is elsewhere. ``boresight_um`` (builds, fields,
-    2): shift of the image. ``mtf`` (builds, fields, 2): the contrast at one frequency of patterns along x (sagittal)
+    ``strehl``: of the peak, as `Psf.strehl`, and 0 beyond `SUMMED_RMS`. ``boresight_um`` (builds, fields, 2): shift of
+    the image. ``mtf`` (builds, fields, 2): the contrast at one frequency of patterns along x (sagittal)
     and y (tangential), NaN unless requested.
     """
 
@@ -133,7 +133,7 @@ class FieldForm:
     """
 
     def __init__(self, places: np.ndarray, waves: np.ndarray, weight: np.ndarray, axes: np.ndarray):
-        self.weight = weight
+        self.weight, self.axes = weight, axes
         rows = without_tilt(np.concatenate([waves[None], _terms(*places)]), weight, axes)
         self.still, self.terms = rows[0], rows[1:]
         # Not of the rays times the roots of their weights, since weights at a mask's edges may be negative.
@@ -154,10 +154,8 @@ class FieldForm:
         return np.linalg.pinv(self.terms)
 
     def strehl(self, change: np.ndarray) -> np.ndarray:
-        """Return |Σ weight·exp(2πi·waves)|² of builds, (builds,), that differ by (builds, terms)."""
-        angle = 2 * np.pi * (self.still + change @ self.terms)
-        strehl: np.ndarray = (np.cos(angle) @ self.weight) ** 2 + (np.sin(angle) @ self.weight) ** 2
-        return strehl
+        """Return the Strehl ratios of builds, (builds,), that differ by (builds, terms)."""
+        return strehl_ratios(self.still + change @ self.terms, self.weight, self.axes)
 
 
 class Expansion:

@@ -27,6 +27,7 @@ from p2sf.tolerance.differentials import (
     with_moved_sensor,
 )
 from p2sf.tolerance.errors_of_build import build
+from p2sf.tolerance.strehl import strehl_ratios
 
 STEP, LEAST_STEP = 0.01, 1e-5  # of a compensator, to measure its effect on exact rays
 INVALID = 0.1  # of a degradation: beyond, the quadratic form does not describe an error
@@ -207,4 +208,5 @@ def _quality(waves: _Waves, rays: OpenRays) -> tuple[float, float]:
     rms = float(np.sqrt(max(rays.share @ waves.wavefront**2, 0.0)))
     if rms > SUMMED_RMS:
         return rms, 0.0
-    return rms, float(abs(rays.weight @ np.exp(2j * np.pi * waves.phase)) ** 2)
+    frequencies = np.stack([waves.reached.fx, waves.reached.fy])
+    return rms, float(strehl_ratios(waves.phase[None], rays.weight, frequencies)[0])

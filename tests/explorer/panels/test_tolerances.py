@@ -68,7 +68,7 @@ def test_errors_yield_and_worst_builds_are_shown(panel):
 def test_a_criterion_or_a_limit_is_another_look_at_the_same_builds(panel, window, qtbot):
     found = panel._found
     window.store.update(tolerances_criterion="strehl", tolerances_limit=0.5)
-    assert panel._found is found and "Strehl ratio without tilt ≥ 0.50" in panel.widget.readout.text()
+    assert panel._found is found and "Strehl ratio ≥ 0.50" in panel.widget.readout.text()
     kept = (found.builds.strehl.min(1) >= 0.5).mean()
     assert panel.widget.readout.text().startswith(f"{100 * kept:.1f} %")
     window.store.update(tolerances_criterion="mtf", tolerances_limit=None)

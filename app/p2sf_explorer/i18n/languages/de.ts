@@ -575,7 +575,7 @@
 <message><source>Handbook: the page of what has the focus</source><translation>Handbuch: die Seite zu dem, was den Fokus hat</translation></message>
 <message><source>Help</source><translation>Hilfe</translation></message>
 <message><source>Hover or use the arrow keys to look at a place: its PSF and an enlarged detail follow. Drag the split, or move it with Shift and the left or right arrow. Drop a photo here to photograph it through the lens.</source><translation>Zeigen oder mit den Pfeiltasten eine Stelle ansehen: ihre PSF und ihr Ausschnitt folgen. Den Teiler ziehen, oder mit Umschalt und Pfeil links oder rechts bewegen. Ein abgelegtes Foto wird fotografiert.</translation></message>
-<message><source>How a lens is judged, in the worst of three fields: axis, seven tenths and edge. The Strehl ratio without tilt is |mean of exp(2πiW)|² of the phase W at the focus, without piston and the tilt that leaves least variance; the peak, of which the other panels show the Strehl ratio, is higher if it is elsewhere.</source><translation>Wonach ein Objektiv beurteilt wird, im schlechtesten von drei Feldern: Achse, sieben Zehntel und Rand. Das Strehl-Verhältnis ohne Kippung ist |Mittel von exp(2πiW)|² der Phase W im Fokus, ohne Konstante und ohne die Kippung, nach deren Abzug die Varianz am kleinsten ist; der höchste Wert, dessen Strehl-Verhältnis die anderen Ansichten zeigen, ist größer, wenn er woanders liegt.</translation></message>
+<message><source>How a lens is judged, in the worst of three fields: axis, seven tenths and edge. The Strehl ratio is that of the peak, as in the other panels.</source><translation>Wonach ein Objektiv beurteilt wird, im schlechtesten von drei Feldern: Achse, sieben Zehntel und Rand. Das Strehl-Verhältnis ist das des Maximums, wie in den anderen Feldern.</translation></message>
 <message><source>Measure six points through this lens whose sensor stands 60 µm too far; the panel finds that</source><translation>Sechs Punkte durch dieses Objektiv messen, dessen Sensor 60 µm zu weit steht; die Ansicht findet das</translation></message>
 <message><source>Picture to the edges, or within its axes</source><translation>Bild bis zum Rand oder innerhalb seiner Achsen</translation></message>
 <message><source>Show A and B side by side on one scale; zoom and crosshair go together</source><translation>A und B nebeneinander in einem Maßstab zeigen; Zoom und Fadenkreuz gehen gemeinsam</translation></message>
@@ -972,9 +972,7 @@
 <message><source>Strehl</source><translation>Strehl</translation></message>
 <message><source>Strehl ratio</source><translation>Strehl-Zahl</translation></message>
 <message><source>Strehl ratio {value}</source><translation>Strehl-Verhältnis {value}</translation></message>
-<message><source>Strehl ratio without tilt</source><translation>Strehl-Verhältnis ohne Kippung</translation></message>
-<message><source>Strehl ratio without tilt ≥ {limit}</source><translation>Strehl-Verhältnis ohne Kippung ≥ {limit}</translation></message>
-<message><source>Strehl without tilt</source><translation>Strehl ohne Kippung</translation></message>
+<message><source>Strehl ratio ≥ {limit}</source><translation>Strehl-Verhältnis ≥ {limit}</translation></message>
 <message><source>Strehl {strehl}</source><translation>Strehl {strehl}</translation></message>
 <message><source>Strehl {value}</source><translation>Strehl {value}</translation></message>
 <message><source>Surfaces of the lens</source><translation>Flächen des Objektivs</translation></message>

@@ -56,9 +56,8 @@ TIP = (
 )
 GRADE_TIP = "The tolerances that workshops offer under this name; you can change the ± values below."
 CRITERION_TIP = (
-    "How a lens is judged, in the worst of three fields: axis, seven tenths and edge. The Strehl ratio "
-    "without tilt is |mean of exp(2πiW)|² of the phase W at the focus, without piston and the tilt that leaves least "
-    "variance; the peak, of which the other panels show the Strehl ratio, is higher if it is elsewhere."
+    "How a lens is judged, in the worst of three fields: axis, seven tenths and edge. The Strehl ratio is that of the "
+    "peak, as in the other panels."
 )
 LIMIT_TIP = "The limit that a good lens meets in every field; at first, the one that four lenses of five meet."
 AIR_PX = 4
@@ -70,7 +69,7 @@ COMPENSATOR_TIP = (
 GRADE_WORDS = (("commercial", "commercial grade"), ("precision", "precision grade"), ("high", "high precision grade"))
 CRITERION_WORDS = (
     ("rms_waves", "RMS wavefront"),
-    ("strehl", "Strehl ratio without tilt"),
+    ("strehl", "Strehl ratio"),
     ("mtf", "contrast (MTF)"),
     ("boresight_um", "shift of the image"),
 )
@@ -81,13 +80,13 @@ SET_WORDS: dict[Kind, str] = {
 }
 AXES = {
     "rms_waves": "RMS wavefront, waves",
-    "strehl": "Strehl ratio without tilt",
+    "strehl": "Strehl ratio",
     "mtf": "contrast",
     "boresight_um": "shift of the image, µm",
 }
 SIGNS = {
     "rms_waves": "RMS ≤ {limit} λ",
-    "strehl": "Strehl ratio without tilt ≥ {limit}",
+    "strehl": "Strehl ratio ≥ {limit}",
     "mtf": "contrast ≥ {limit}",
 } | {"boresight_um": "shift ≤ {limit} µm"}
 SUFFIXES = {"rms_waves": " λ", "strehl": "", "mtf": "", "boresight_um": " µm"}

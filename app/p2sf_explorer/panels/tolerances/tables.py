@@ -32,7 +32,7 @@ FORM_TIP = (
     "By exact rays. The quadratic form by which builds are drawn says {value}: it does not describe so large an error."
 )
 NOTICED = 0.01  # of the largest harm: errors of the form below that are not told
-SHORT = {"rms_waves": "RMS, λ", "strehl": "Strehl without tilt", "mtf": "contrast", "boresight_um": "shift, µm"}
+SHORT = {"rms_waves": "RMS, λ", "strehl": "Strehl", "mtf": "contrast", "boresight_um": "shift, µm"}
 ERROR_WORDS: dict[Kind, str] = {
     "decentre_x": "decentre x, surface {where}",
     "decentre_y": "decentre y, surface {where}",
