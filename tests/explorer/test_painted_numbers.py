@@ -6,25 +6,29 @@ from math import inf
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QEvent, QRectF, Qt
+from PySide6.QtCore import QEvent, QPointF, QRectF, QSizeF, Qt
 from PySide6.QtGui import QColor, QImage, QKeyEvent
 
 from p2sf.lens.lens import indices
 from p2sf.lensfile.library import find_lens
 from p2sf_explorer.charts.colour_scale import ColourScale
+from p2sf_explorer.charts.crosshair import box_place
 from p2sf_explorer.charts.plots import lookup
 from p2sf_explorer.charts.surface_plot import DARKEST, Viewpoint, light_up, slice_map
 from p2sf_explorer.charts.theme import tokens
 from p2sf_explorer.compute.live import live
+from p2sf_explorer.compute.matrix.points import depths_around
 from p2sf_explorer.compute.quantities import QUANTITIES
 from p2sf_explorer.compute.setup import paraxial_setup, ranges, with_lens
 from p2sf_explorer.compute.views import field_map, through_focus
+from p2sf_explorer.compute.views.photos import frame_box
 from p2sf_explorer.panels.field_map import NODE_COLOURS, NODE_PX, FieldMapPanel
-from p2sf_explorer.panels.image.split_view import close_up
+from p2sf_explorer.panels.image.split_view import SplitView, close_up
 from p2sf_explorer.playback.sweep import sweep
 from p2sf_explorer.scene3d.renderer import direction
 from p2sf_explorer.scene3d.scene import scene
 from p2sf_explorer.state.camera import SceneCamera
+from p2sf_explorer.state.scales import written_r_squared
 from p2sf_explorer.state.state import change, new_state
 from p2sf_explorer.widgets.scrub import claimed
 from p2sf_explorer.widgets.slider import ARROWS
@@ -263,3 +267,51 @@ def test_nodes_of_the_map_are_an_upright_and_a_diagonal_cross_about_their_places
             at = x + dx * (half - 1), y + dy * (half - 1)
             near = {picture.pixelColor(at[0] + i, at[1] + j).name() for i in (-1, 0, 1) for j in (-1, 0, 1)}
             assert (colour in near) == there
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [(1 - 1e-7, "> 0.9999"), (0.99994, "> 0.9999"), (0.9986, "0.9986"), (0.954, "0.954"), (-0.25, "−0.250")],
+)
+def test_an_r_squared_is_never_rounded_to_one(value, text):
+    assert written_r_squared(value) == text
+
+
+@pytest.mark.parametrize("own", [(300, 1000), (900, 700)])
+def test_the_frame_cut_from_a_photo_is_its_middle_in_the_proportions_asked(own):
+    top, left, tall, wide = frame_box(own, (200, 300))
+    assert wide / tall == pytest.approx(1.5) and max(tall / own[0], wide / own[1]) == pytest.approx(1.0)
+    assert (2 * top + tall, 2 * left + wide) == pytest.approx(own)
+
+
+@pytest.mark.parametrize("size", [(900, 300), (300, 900), (500, 500)])
+def test_two_pictures_beside_each_other_fill_the_middle_of_their_room(qtbot, size):
+    view = SplitView()
+    qtbot.addWidget(view)
+    view.resize(*size)
+    view.after = np.zeros((60, 90), np.uint32)
+    one, other = view.halves()
+    both = one.united(other)
+    assert both.center().toTuple() == pytest.approx((size[0] / 2, size[1] / 2))
+    assert one.size() == other.size() and not one.intersects(other)
+    assert max(both.width() / size[0], both.height() / size[1]) == pytest.approx(1.0)
+
+
+ROOM = QRectF(0, 0, 400, 300)
+
+
+@pytest.mark.parametrize("mark", [(200, 150), (5, 5), (395, 295), (5, 295), (395, 5)])
+def test_the_box_of_a_reading_stands_beside_its_mark_within_the_chart(mark):
+    """At its own height where the chart has room for that, at the right if it can."""
+    box = box_place([QPointF(*mark)], QSizeF(120, 60), ROOM, 10.0)
+    assert ROOM.contains(box) and not box.contains(QPointF(*mark))
+    assert box.top() == min(max(mark[1] - 40, 0), 240)
+    assert box.left() == (mark[0] + 10 if mark[0] + 130 <= 400 else mark[0] - 130)
+
+
+def test_depths_around_one_stand_a_wave_of_defocus_or_a_little_more_apart():
+    """1/depth in steps of one wave, 2λ/(D/2)² for the diameter D of the entrance pupil, up to the next of 1, 2, 5."""
+    answer = live(change(FIRST, depth_mm=5000.0, focus_mm=5000.0, f_number=8.0), "preview")
+    steps = np.abs(np.diff([1 / depth for depth in depths_around(answer, 5)]))
+    wave = 2 * 0.5875618e-3 / (focal_points("double_gauss_28")[0] / 16) ** 2
+    assert steps == pytest.approx(np.full(4, steps[0]), rel=0.02) and wave * 0.95 <= steps[0] <= 2.6 * wave

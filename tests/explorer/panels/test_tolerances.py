@@ -55,6 +55,8 @@ def test_errors_yield_and_worst_builds_are_shown(panel):
     assert view.counts.sum() >= 0.99 * FEW_BUILDS, "all but the worst are in the histogram"
     assert view.share == pytest.approx(0.8, abs=0.01), "four lenses of five keep the limit"
     assert (np.diff(view.yields[1]) >= 0).all()
+    strehl = analysis.figures(panel._found, replace(state.tolerances, criterion="strehl"))
+    assert strehl.share == pytest.approx(0.8, abs=0.03) and (np.diff(strehl.yields[1]) <= 0).all()
     values = [value for _, value in view.worst]
     assert values == sorted(values, reverse=True)
     assert values[0] == panel._found.builds.rms_waves.max()
