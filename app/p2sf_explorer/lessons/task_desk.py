@@ -12,10 +12,11 @@ from p2sf_explorer.i18n.language import current_language
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.lessons.changes import apply_changes
 from p2sf_explorer.lessons.lesson import Lesson
-from p2sf_explorer.lessons.task import Exercise
+from p2sf_explorer.lessons.task import SEPARATOR, Exercise, NumericAnswer
 from p2sf_explorer.lessons.task_panel import TaskPanel, TaskView
 from p2sf_explorer.lessons.task_record import CourseResult, TaskRecord, read_result, write_result
 from p2sf_explorer.store.store import Store
+from p2sf_explorer.widgets.typed import typed
 
 LONGEST_S = 1800.0  # that counts between two answers: who goes away for lunch does not work
 
@@ -82,6 +83,8 @@ class TaskDesk(QObject):
             return
         set_up = lesson.state(self._number, self._store.state)
         try:
+            for number in text.split(SEPARATOR) if isinstance(task.answer, NumericAnswer) else ():
+                typed(number)
             judgement = task.judge(text, set_up, self._store.state)
         except P2SFError as error:
             self._panel.show_unreadable(said(error))

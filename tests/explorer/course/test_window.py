@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QFileDialog, QInputDialog
 
 from p2sf_explorer.course.lectures import AFTER, BEFORE, course_version
 from p2sf_explorer.course.results_window import FIRST
+from p2sf_explorer.i18n.language import set_language
 from p2sf_explorer.lessons import task_desk
 from p2sf_explorer.lessons.answer_fields import OptionLabel
 from p2sf_explorer.lessons.controller import progress_path
@@ -52,6 +53,18 @@ def test_what_cannot_be_read_costs_no_attempt(teaching, at):
         panel.field.edits[0].setText(text)
         panel.check.click()
         assert panel.verdict.isVisible() and record(teaching, "radius").attempts == 0
+
+
+@pytest.mark.parametrize(("language", "text"), [("de", "6.700"), ("en", "6,700 µm")])
+def test_an_answer_that_can_mean_two_numbers_is_asked_for_again(teaching, at, language, text):
+    panel = at("radius")
+    set_language(language)
+    try:
+        panel.field.edits[0].setText(text)
+        panel.check.click()
+    finally:
+        set_language("en")
+    assert "6700" in panel.verdict.text() and record(teaching, "radius").attempts == 0
 
 
 def test_hints_come_one_at_a_time_and_are_counted(teaching, at):
