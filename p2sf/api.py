@@ -145,7 +145,7 @@ def render(
         options = PsfOptions(quality, min_r2, clip)
         psf = render_integrated(setup.lens, setup.source, method, pixels, pixel_um, options, integrated)
     psf = replace(psf.with_figures(provenance=partial(describe, setup)), azimuth_deg=setup.source.azimuth_deg)
-    return warn_of_window(psf, 6)
+    return warn_of_window(psf, 5)
 
 
 @check_arguments
