@@ -70,6 +70,42 @@ def test_code_is_counted_without_text():
     assert [place[2] for place in structure.long_signatures(path, tree)] == ["f"]
 
 
+COUNTED = """
+from functools import cache, cached_property, lru_cache
+@dataclass
+class Pupil:
+    opd_waves: np.ndarray
+class Trace:
+    path: np.ndarray
+class Wavefront:
+    phase: np.ndarray
+    @cached_property
+    def rms(self): ...
+@cache
+def nodes(): ...
+@lru_cache(maxsize=4)
+def terms(): ...
+plan = lru_cache(maxsize=8)(new_plan)
+"""
+
+
+def test_phases_and_kept_results_are_counted():
+    path, tree = Path("p2sf/a.py"), ast.parse(COUNTED)
+    assert [place[2] for place in structure.phases(path, tree)] == ["Pupil", "Wavefront, in neither list"]
+    assert structure._faults(list(structure.phases(path, tree))).startswith("; new: Wavefront; gone: Coefficients, ")
+    assert [place[2] for place in structure.memoised(path, tree)] == [
+        "nodes",
+        "terms",
+        "lru_cache(maxsize=8)(new_plan)",
+    ]
+
+
+def test_the_types_that_hold_a_phase_are_those_of_the_list():
+    root = structure.HERE
+    trees = ((path.relative_to(root), ast.parse(path.read_text())) for path in structure.sources(root, "p2sf"))
+    assert not structure._faults([place for path, tree in trees for place in structure.phases(path, tree)])
+
+
 BROKEN = {
     "def f(a, b):\n    return (a) + 2 * b\n": {
         "sign": ["return (a) - 2 * b"],

@@ -2,7 +2,8 @@
 
 Printed: lines of code (without blanks, comments and docstrings) and syntax nodes of every folder; then branches on
 symmetry, comparisons with names of methods, functions of many parameters, class names that occur twice, names that are
-a bare participle, and circles between folders. ``--list branches`` names every place of that count.
+a bare participle, types that hold a phase over a pupil, functions whose results are kept, small files, circles between
+folders and between files, and imports that run upwards. ``--list branches`` names every place of that count.
 """
 
 import argparse
@@ -10,8 +11,11 @@ import ast
 import io
 import tokenize
 from collections import Counter, defaultdict
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
+
+from tests.support.imports import Graph, circles, graph, imports, module_paths, upward_imports
+from tests.test_package import FLOOR
 
 HERE = Path(__file__).resolve().parents[2]
 PACKAGES = ("p2sf", "app/p2sf_explorer", "tests")
@@ -39,6 +43,18 @@ IRREGULAR = set(
     """.split()
 )
 NO_PARTICIPLES = {"seed", "speed", "need", "feed"}
+FEW_LINES = 45
+# Types of the core that say what phase, path or OPD light has over a pupil, as values, terms or series.
+HOLD_A_PHASE = set(
+    """
+    Coefficients DesignedPupil Differentials ExactDatabase FittedDatabase FittedPencil FrequencyPupil NodeGrid OpenRays
+    Parts PencilForms PixelPupil PointFit PointPupil Pupil PupilMap PupilNodes PupilSamples PupilStack PupilTable Rays
+    Turned WavefrontMap WavefrontSamples Waves ZernikeFit _Pupil _Waves
+    """.split()
+)
+PHASE_FIELDS = {"phase", "waves", "wavefront", "opd", "opd_waves", "path"}
+# With such a field, but the terms of a basis, a ray's own way through the lens, or a first guess of six numbers.
+NO_PHASE = {"Projection", "PupilRays", "PupilValues", "Start", "Trace"}
 Place = tuple[Path, int, str]
 
 
@@ -147,56 +163,99 @@ def _is_participle(word: str) -> bool:
     )
 
 
-def circles(root: Path) -> list[set[str]]:
+def folder_circles(root: Path) -> list[set[str]]:
     """Return the sets of folders that import each other in circles, within one package."""
-    towards: dict[str, set[str]] = defaultdict(set)
-    for package in PACKAGES[:2]:
-        for path in sources(root, package):
-            own = _folder(path.relative_to(root / package).parts, Path(package).name)
-            for name in _imports(path):
-                parts = name.split(".")
-                if parts[0] == Path(package).name and len(parts) > 2:
-                    towards[own].add(".".join(parts[:2]))
-    reached = {folder: _reached(folder, towards) for folder in towards}
-    found = {frozenset({a, *(b for b in reached[a] if a in reached.get(b, ()))}) for a in reached if a in reached[a]}
-    return [set(circle) for circle in sorted(found, key=sorted) if len(circle) > 1]
+    towards: Graph = defaultdict(set)
+    for one in imports(root):
+        own, other = (name.split(".") for name in (one.module, one.name))
+        if own[0] == other[0] and len(other) > 2 and len(own) > 1:
+            towards[".".join(own[:2])].add(".".join(other[:2]))
+    return [set(circle) for circle in circles(dict(towards))]
 
 
-def _folder(parts: tuple[str, ...], package: str) -> str:
-    return f"{package}.{parts[0].removesuffix('.py')}"
+def file_circles(root: Path, with_types: bool = False) -> Iterator[Place]:
+    """Yield a place for each circle of files, imports within functions included; those for types alone if asked."""
+    paths = module_paths(root)
+    for circle in circles(graph(root, with_types)):
+        names = sorted(circle)
+        yield paths[names[0]].relative_to(root), 1, ", ".join(names)
 
 
-def _imports(path: Path) -> Iterator[str]:
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.ImportFrom) and node.module:
-            yield from (f"{node.module}.{alias.name}" for alias in node.names)
+def upwards(root: Path) -> Iterator[Place]:
+    """Yield the imports into a folder that stands no lower, as the layers of this checkout are."""
+    paths = module_paths(root)
+    for one in upward_imports(root, FLOOR):
+        yield paths[one.module].relative_to(root), one.line, one.name
 
 
-def _reached(start: str, towards: dict[str, set[str]]) -> set[str]:
-    found: set[str] = set()
-    waiting = [start]
-    while waiting:
-        for other in towards.get(waiting.pop(), set()) - found:
-            found.add(other)
-            waiting.append(other)
-    return found
+def memoised(path: Path, tree: ast.Module) -> Iterator[Place]:
+    """Yield the functions whose results are kept by `functools.lru_cache` or `cache`; a cached property is none."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+            kept = [each for each in node.decorator_list if _keeps(each.func if isinstance(each, ast.Call) else each)]
+            yield from ((path, node.lineno, node.name) for _ in kept)
+        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Call) and _keeps(node.func.func):
+            yield path, node.lineno, ast.unparse(node)
+
+
+def _keeps(node: ast.expr) -> bool:
+    return ast.unparse(node).removeprefix("functools.") in ("lru_cache", "cache")
+
+
+def phases(path: Path, tree: ast.Module) -> Iterator[Place]:
+    """Yield the classes of `HOLD_A_PHASE`, and those with a field of such a name that no list knows."""
+    if path.parts[0] != "p2sf":
+        return
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ClassDef) and node.name in HOLD_A_PHASE:
+            yield path, node.lineno, node.name
+        elif isinstance(node, ast.ClassDef) and node.name not in NO_PHASE and _may_hold_a_phase(node):
+            yield path, node.lineno, f"{node.name}, in neither list"
+
+
+def _may_hold_a_phase(owner: ast.ClassDef) -> bool:
+    fields = (node for node in owner.body if isinstance(node, ast.AnnAssign))
+    return any(
+        ast.unparse(field.target) in PHASE_FIELDS and "rray" in ast.unparse(field.annotation) for field in fields
+    )
+
+
+def small(path: Path, source: str) -> Iterator[Place]:
+    """Yield a file with so few lines of code that it may belong into another; packages' own files are none."""
+    count = lines_of_code(source)
+    if path.stem not in ("__init__", "__main__") and count < FEW_LINES:
+        yield path, 1, f"{count} lines"
 
 
 def counts(root: Path) -> dict[str, list[Place]]:
     """Return the places of every count over core and app."""
-    found: dict[str, list[Place]] = {"branches": [], "methods": [], "parameters": [], "classes": [], "participles": []}
+    found: dict[str, list[Place]] = {name: [] for name in COUNTS}
     named: dict[str, list[Place]] = defaultdict(list)
     for package in PACKAGES[:2]:
         for path in sources(root, package):
-            tree, short = ast.parse(path.read_text(encoding="utf-8")), path.relative_to(root)
-            found["branches"] += branches(short, tree)
-            found["methods"] += method_comparisons(short, tree)
-            found["parameters"] += long_signatures(short, tree)
-            found["participles"] += participles(short, tree)
+            source, short = path.read_text(encoding="utf-8"), path.relative_to(root)
+            tree = ast.parse(source)
+            for name, places in BY_FILE.items():
+                found[name] += places(short, tree)
+            found["small"] += small(short, source)
             for place in classes(short, tree):
                 named[place[2]].append(place)
     found["classes"] = [place for name in sorted(named) if len(named[name]) > 1 for place in named[name]]
+    found["circles"] = list(file_circles(root))
+    found["type-circles"] = list(file_circles(root, with_types=True))
+    found["upwards"] = list(upwards(root))
     return found
+
+
+BY_FILE: dict[str, Callable[[Path, ast.Module], Iterator[Place]]] = {
+    "branches": branches,
+    "methods": method_comparisons,
+    "parameters": long_signatures,
+    "participles": participles,
+    "phases": phases,
+    "memoised": memoised,
+}
+COUNTS = (*BY_FILE, "classes", "small", "circles", "type-circles", "upwards")
 
 
 def sizes(root: Path) -> dict[str, tuple[int, int]]:
@@ -215,9 +274,7 @@ def sizes(root: Path) -> dict[str, tuple[int, int]]:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("root", type=Path, nargs="?", default=HERE, help="folder of a checkout")
-    parser.add_argument(
-        "--list", choices=("branches", "methods", "parameters", "classes", "participles"), help="name every place"
-    )
+    parser.add_argument("--list", choices=COUNTS, help="name every place")
     given = parser.parse_args()
     found = counts(given.root)
     if given.list:
@@ -236,7 +293,20 @@ def main() -> None:
     print(f"{len(found['parameters'])} functions of more than {MOST_PARAMETERS} parameters")
     print(f"{len({name for _, _, name in found['classes']})} class names that occur more than once")
     print(f"{len(found['participles'])} names of functions, classes and fields that are a bare participle")
-    print(f"circles between folders: {circles(given.root) or 'none'}")
+    print(f"{len(found['phases'])} types of the core that hold a phase over a pupil{_faults(found['phases'])}")
+    print(f"{len(found['memoised'])} functions whose results are kept, cached properties not counted")
+    print(f"{len(found['small'])} files below {FEW_LINES} lines of code")
+    print(f"circles between folders: {folder_circles(given.root) or 'none'}")
+    for name, words in {"circles": "circles between files", "type-circles": "of them and of imports for types"}.items():
+        print(f"{len(found[name])} {words}, of {sum(len(what.split(', ')) for *_, what in found[name])} files")
+    print(f"{len(found['upwards'])} imports that run upwards, from {len({p for p, *_ in found['upwards']})} files")
+
+
+def _faults(places: list[Place]) -> str:
+    """Return what the list of types and the code do not have in common."""
+    unknown = [what.split(",")[0] for *_, what in places if "," in what]
+    gone = sorted(HOLD_A_PHASE - {what for *_, what in places})
+    return "".join(f"; {words}: {', '.join(names)}" for words, names in (("new", unknown), ("gone", gone)) if names)
 
 
 if __name__ == "__main__":
