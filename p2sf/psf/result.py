@@ -203,12 +203,6 @@ class Psf:
         return replace(self, figures=replace(self.figures, **figures))
 
     @property
-    def tolerance(self) -> float | None:
-        """Return `error` by its former name, with a DeprecationWarning."""
-        warnings.warn("Psf.tolerance is Psf.error now", DeprecationWarning, stacklevel=2)
-        return self.error
-
-    @property
     def over_unaberrated(self) -> np.ndarray | None:
         """Return the samples in units of the unaberrated peak; None if the method has no pupil."""
         if self.sum_over_peak is not None:
