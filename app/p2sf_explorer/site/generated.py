@@ -24,6 +24,8 @@ PLACES = {
     "CHANGELOG.md": "changelog.md",
 }
 LINK = re.compile(r"(?<=\]\()(" + "|".join(map(re.escape, PLACES)) + ")")
+# What a class of the library has from one that is not listed.
+INHERITED = {"Camera": ("    options:", "      inherited_members: [source, settings, its_lens]")}
 MORE_OF_THE_LIBRARY = "p2sf.conventions", "p2sf.errors", "p2sf.export.psf_set", "p2sf.psf.result"
 
 
@@ -94,7 +96,7 @@ def library_page() -> str:
     """Return the page of the library, whose entries mkdocstrings fills from the docstrings."""
     lines = ["# Library", "", "Everything here is imported from `p2sf`: `import p2sf`, then `p2sf.render`.", ""]
     for name in p2sf.__all__:
-        lines += [f"::: p2sf.{name}", ""]
+        lines += [f"::: p2sf.{name}", *INHERITED.get(name, ()), ""]
     lines += ["## Beside these", ""]
     for name in MORE_OF_THE_LIBRARY:
         lines += [f"::: {name}", ""]
