@@ -33,6 +33,11 @@ _here = local()  # ``worker`` is set in threads of a pool
 _asked: ContextVar[int | None] = ContextVar("threads", default=None)
 
 
+def never() -> bool:
+    """Return False: work that nobody cancels."""
+    return False
+
+
 def threads_or_default(threads: int | None = None) -> int:
     """Return the number of threads: the argument, else that of `using_threads`, else the variable P2SF_THREADS.
 

@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+import pytest
+
 from tests.support.imports import circles, graph, imports, module_paths, upward_imports
 from tests.support.interpreter import loaded_by
 
@@ -112,3 +114,36 @@ def test_heavy_libraries_are_loaded_on_use():
     loaded = loaded_by(f"import {', '.join(n for n in names if not n.endswith('__main__'))}")
     assert not {name.split(".")[0] for name in loaded} & heavy
     assert not loaded & {"scipy.optimize", "scipy.interpolate"}
+
+
+FIRST_PICTURE = """
+import os
+os.environ["QT_QPA_PLATFORM"] = "offscreen"
+from PySide6.QtWidgets import QApplication
+application = QApplication([])
+from p2sf_explorer.window.window import MainWindow
+window = MainWindow(measured=False)
+window.show()
+application.processEvents()
+window.grab()
+"""
+# Whole subjects, and libraries that take a tenth of a second or more, by what does not need them.
+NOT_NEEDED = {
+    "import p2sf": ("numpy", "scipy", "p2sf.lens", "p2sf.setting"),
+    "from p2sf.cli import main; main(['info', 'double_gauss_28'])": (
+        *("scipy", "finufft", "p2sf.psf", "p2sf.metrics", "p2sf.pixel_kernels", "p2sf.scene", "p2sf.image"),
+        *("p2sf.database", "p2sf.tolerance", "p2sf.measure", "p2sf.studies", "p2sf.export", "p2sf_explorer"),
+    ),
+    FIRST_PICTURE: (
+        *("scipy", "pyqtgraph", "cyclopts", "p2sf.api", "p2sf.image.form", "p2sf.scene", "p2sf.pixel_kernels"),
+        *("p2sf.database", "p2sf.tolerance.builds", "p2sf.measure", "p2sf.export", "p2sf.lensfile.formats"),
+        *("p2sf_explorer.course.lectures", "p2sf_explorer.lessons.lesson", "p2sf_explorer.lessons.lesson_panel"),
+        *("p2sf_explorer.report", "p2sf_explorer.compare.differences", "p2sf_explorer.handbook"),
+    ),
+}
+
+
+@pytest.mark.parametrize("statement", NOT_NEEDED, ids=["import", "info", "first picture"])
+def test_a_start_loads_only_what_it_needs(statement):
+    loaded = loaded_by(f"{statement}\n")
+    assert {name for name in NOT_NEEDED[statement] if name in loaded} == set()

@@ -13,7 +13,6 @@ import numpy as np
 from p2sf.arguments import check_fields, first_place
 from p2sf.conventions import FARTHEST_MM, depth_of, vergence
 from p2sf.errors import RequestError
-from p2sf.io.photo_files import HEIF, by_rows, heif_depth_image, read_samples
 from p2sf.messages import Alternatives
 from p2sf.parameters import check_reach
 
@@ -63,6 +62,8 @@ def read_depths(path: str | os.PathLike[str], scale: DepthScale) -> np.ndarray:
     and more than FARTHEST_MM, as renderers write of the sky, are infinity. Raises RequestError for colours, numbers
     that are NaN, negative or beyond 1, and a map without any depth.
     """
+    from p2sf.io.photo_files import read_samples
+
     return _scaled(read_samples(Path(path)), scale, path)
 
 
@@ -73,6 +74,8 @@ def read_scene_depths(
 
     ``meaning``: as in `DepthScale`; by default floats are mm and whole numbers reach from far, black, to near, white.
     """
+    from p2sf.io.photo_files import read_samples
+
     own = own_depths(path)
     if own is not None:
         return own
@@ -83,6 +86,8 @@ def read_scene_depths(
 
 def _scaled(raw: np.ndarray, scale: DepthScale, path: str | os.PathLike[str]) -> np.ndarray:
     """Return the depths that samples of a file stand for, see `read_depths`."""
+    from p2sf.io.photo_files import by_rows
+
     if raw.ndim == 3 and raw.shape[2] in (3, 4) and (raw[..., :1] == raw[..., :3]).all():
         raw = raw[..., 0]  # grey, saved in colours
     raw = raw[..., 0] if raw.ndim == 3 and raw.shape[2] in (1, 2) else raw
@@ -150,6 +155,8 @@ def own_depths(path: str | os.PathLike[str]) -> np.ndarray | None:
     Turned upright where the file says how. Needs pillow-heif. Raises RequestError where it does not say how far away
     its numbers are.
     """
+    from p2sf.io.photo_files import HEIF, heif_depth_image
+
     if Path(path).suffix.lower() not in HEIF:
         return None
     found = heif_depth_image(path)

@@ -15,7 +15,6 @@ from math import ceil, hypot, pi
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebint, chebval, chebvander
-from scipy import fft
 
 from p2sf.conventions import write_protect
 from p2sf.errors import SamplingError
@@ -154,9 +153,20 @@ def landing_energy(
     field = _at_points(x, y, wave, circles)
     mean = np.add.reduceat(field.real**2 + field.imag**2, circles.starts, dtype=float) / circles.directions
     flux = mean * circles.radius * (2 * pi * top**2 * pupil.half_x * pupil.half_y / light)
-    series = fft.dct(flux, type=2) / flux.size
+    series = _cosine_sums(flux) / flux.size
     series[0] /= 2
     return EncircledLight(chebint(series, lbnd=-1) / 2, top)
+
+
+def _cosine_sums(values: np.ndarray) -> np.ndarray:
+    """Return 2 Σ values[n]·cos(πk(2n + 1)/2N) for all k < N, by one FFT of the values and their mirror image.
+
+    Makhoul 1980, section II. `scipy.fft.dct` takes as long, and 0.15 s to be imported.
+    """
+    count = values.size
+    both = np.fft.rfft(np.append(values, values[::-1]))[:count]
+    sums: np.ndarray = (both * np.exp(-0.5j * pi / count * np.arange(count))).real
+    return sums
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,9 +17,8 @@ from functools import cached_property, lru_cache
 from math import hypot, inf, nan, sqrt
 
 import numpy as np
+from numpy.fft import irfft, rfft
 from numpy.polynomial.chebyshev import chebder, chebvander
-from scipy.fft import irfft, rfft
-from scipy.linalg import qr, solve_triangular
 
 from p2sf.conventions import write_protect
 from p2sf.errors import GeometryError
@@ -609,13 +608,13 @@ class LeastSquares:
         self._used = domain.holds(x)
         design = self._along[self._used][:, self._at[0]] * self._across[self._used][:, self._at[1]]
         self._root = np.sqrt(share + share[share > 0].min())  # the edge counts too, where polynomials deviate first
-        self._factor, self._upper = qr(design * self._root[self._used, None], mode="economic", check_finite=False)
+        self._factor, self._upper = np.linalg.qr(design * self._root[self._used, None])
         self.freedom = max(1 - design.shape[1] / design.shape[0], 1e-3)
 
     def solve(self, values: np.ndarray) -> np.ndarray:
         """Return the coefficients, (order + 1, order + 1) for (b, a), of what x = 0 mirrors alike."""
         table = np.zeros((self._order + 1, self._order + 1))
-        table[tuple(self._at)] = solve_triangular(self._upper, self._factor.T @ (values * self._root)[self._used])
+        table[tuple(self._at)] = np.linalg.solve(self._upper, self._factor.T @ (values * self._root)[self._used])
         return table
 
     def solve_across(self, values: np.ndarray) -> np.ndarray:

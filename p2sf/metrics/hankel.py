@@ -3,8 +3,6 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import fft
-from scipy.special import j1
 
 AT_ONCE = 2**22  # Bessel functions
 
@@ -22,6 +20,8 @@ class HankelEnergy:
 
     def within(self, radius_um: np.ndarray) -> np.ndarray:
         """Return the share of the light within each radius of the point, (n,)."""
+        from scipy.special import j1
+
         beyond, parts = self.frequency[1:], []
         for radius in np.array_split(radius_um, max(1, radius_um.size * beyond.size // AT_ONCE)):
             kernel = radius[:, None] * j1(2 * np.pi * radius[:, None] * beyond) / beyond
@@ -46,6 +46,8 @@ def hankel_energy(table: np.ndarray, step: float, x_um: float, y_um: float) -> H
 
     ``step``: cycles per µm from one frequency to the next; the light lies about x = y = 0 where all phases are 0.
     """
+    from scipy import fft
+
     lag = fft.fftfreq(len(table), 1 / len(table))
     along_x, along_y = (np.exp(2j * np.pi * step * place * lag) for place in (x_um, y_um))
     values = (table * along_x * along_y[:, None]).real / table[0, 0].real

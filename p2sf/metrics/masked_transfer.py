@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from math import ceil, hypot
 
 import numpy as np
-from scipy import fft
 
 from p2sf.errors import Cancelled, SamplingError
 from p2sf.metrics.frequency_pupil import FrequencyPupil, reach_of
@@ -76,6 +75,8 @@ def masked_sum(
     pupil: FrequencyPupil, lines: MaskedLines, cancelled: Callable[[], bool]
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the autocorrelations of the pupil about its centroid and of its modulus at the lags 0 … samples."""
+    from scipy import fft
+
     step, size = 2 / lines.samples, lines.samples + 2 * MARGIN
     along = np.arange(size) * step - 1 - (MARGIN - 0.5) * step
     length = fft.next_fast_len(2 * size)

@@ -9,6 +9,7 @@ See handbook 6.3.
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from math import sqrt
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -32,17 +33,18 @@ from p2sf.metrics.frequency_pupil import (
     rotate_frequencies,
     with_spot,
 )
-from p2sf.metrics.transfer import OtfSlice, edge_spread, line_spread, never, otf_slices
 from p2sf.paraxial.seidel import Coefficients, check_seidel, coefficients
 from p2sf.psf.methods import AUTO, choose, seidel_error
-from p2sf.psf.polychromatic import bands_through, chief_places_um
 from p2sf.psf.prediction import SAFETY
 from p2sf.psf.seidel import check_image
 from p2sf.pupil.mask import CLEAR
 from p2sf.raytrace.exit_sphere import exit_sphere
 from p2sf.raytrace.fit import fit
 from p2sf.raytrace.seen_mask import mask_seen
-from p2sf.threads import one_blas_thread
+from p2sf.threads import never, one_blas_thread
+
+if TYPE_CHECKING:
+    from p2sf.metrics.transfer import OtfSlice
 
 FREQUENCIES = 257
 COLOURS = 21  # wavelengths of a continuous spectrum, as the colour PSF has them
@@ -51,6 +53,7 @@ POINTS = 513
 ROADS_AGREE = 1e-3  # of energy by landing points and by waves
 LAST_DIGIT = 1e-3  # of contrast and energy as they are shown: a smaller error is not pointed out
 PARTS = (0.5, 0.8)  # of the light, whose radii are quoted
+DIVIDED, DIVISIONS = 3, 16  # times, into parts: a step of 1/4096, over which the curve is a line to 1e-8
 
 
 @dataclass(frozen=True, eq=False)
@@ -262,6 +265,8 @@ def parts_of(
 
     ``check`` is called with each of them, before the next is traced, and may refuse it.
     """
+    from p2sf.psf.polychromatic import bands_through, chief_places_um
+
     if spectrum is None:
         pupil, used = pupil_of(lens, source, method, clip, turn_deg)
         return [PupilPart(pupil)], used
@@ -299,6 +304,8 @@ def mtf_of(
     ``turn_deg``: that of the parts, to be told with the curves.
     ``cancelled`` is polled now and then and ends the work with `Cancelled`.
     """
+    from p2sf.metrics.transfer import otf_slices
+
     slices = [otf_slices(part.pupil, cancelled) for part in parts]
     if frequency_per_mm is None:
         cut_off = max(one.cut_off for both in slices for one in both)
@@ -316,7 +323,7 @@ def mtf_of(
     return Mtf(given, np.abs(tangential), np.abs(sagittal), *perfect, method, *clear, turn_deg, _predicted_error(parts))
 
 
-def _transfer(parts: Parts, slices: Sequence[OtfSlice], frequency: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _transfer(parts: Parts, slices: "Sequence[OtfSlice]", frequency: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return Σ share·OTF about the centroid of all parts, and the same of the pupils without phase."""
     total, bound = np.zeros(frequency.shape, complex), np.zeros(frequency.shape)
     up, right = centroid_of(parts), centroid_x_of(parts)
@@ -373,19 +380,28 @@ def _common_table(parts: Parts, found: Found) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _radius_of(parts: Parts, found: Found, radius: np.ndarray, fraction: np.ndarray, share: float) -> float:
-    """Return the smallest radius that holds a share of the light; NaN where the curve ends before it."""
-    from scipy.optimize import brentq
+    """Return the smallest radius that holds a share of the light; NaN where the curve ends before it.
 
+    The step of the table that reaches it is divided again and again, each time at once.
+    """
     above = np.flatnonzero(fraction >= share)
     if not above.size:
         return float("nan")
-    low, high = float(radius[max(above[0] - 1, 0)]), float(radius[above[0]])
-    return float(brentq(lambda r: float(_within(parts, found, np.array([r]))[0]) - share, low, high, rtol=1e-6))
+    at = int(above[0])
+    low, high = radius[max(at - 1, 0)], radius[at]
+    for _ in range(DIVIDED):
+        radius = np.linspace(low, high, DIVISIONS + 1)
+        fraction = _within(parts, found, radius)
+        at = max(int(np.argmax(fraction >= share)), 1) if fraction[-1] >= share else DIVISIONS
+        low, high = radius[at - 1], radius[at]
+    return float(np.interp(share, fraction[at - 1 : at + 1], radius[at - 1 : at + 1]))
 
 
 @one_blas_thread
 def spread_of(parts: Parts, method: str, position_um: ArrayLike | None = None) -> LineSpread:
     """Return the images of a line and of an edge, by default at POINTS even positions about the centroid."""
+    from p2sf.metrics.transfer import edge_spread, line_spread, otf_slices
+
     slices = [otf_slices(part.pupil) for part in parts]
     most = 1 / (2 * min(one.step for both in slices for one in both))
     if position_um is None:

@@ -10,7 +10,6 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy import fft
 
 from p2sf.arguments import check_arguments, number_list, real_array
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
@@ -244,6 +243,8 @@ class Pupil:
     @cached_property
     def _energy(self) -> HankelEnergy:
         """Return the energy about the centroid, of the autocorrelation of all cells."""
+        from scipy import fft
+
         size = 2 * len(self._field)
         table = fft.ifft2(np.abs(fft.fft2(self._field, (size, size))) ** 2)
         table[0, 0] = self._light
@@ -263,6 +264,8 @@ class Pupil:
 
 def _autocorrelation(lines: np.ndarray) -> np.ndarray:
     """Return Σ line(j + k)·line(j)* over all lines, (lines, size), at the lags k = 0 … size."""
+    from scipy import fft
+
     size = lines.shape[-1]
     spectrum = fft.fft(lines, fft.next_fast_len(2 * size + 1))
     found: np.ndarray = fft.ifft((spectrum.real**2 + spectrum.imag**2).sum(0))[: size + 1]

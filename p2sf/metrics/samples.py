@@ -6,7 +6,6 @@ there. Of pixels that hold the light that falls on them, all figures are those o
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy import fft
 
 from p2sf.arguments import check_arguments, number_list
 from p2sf.errors import SamplingError
@@ -106,6 +105,8 @@ def _energy_about(psf: Psf, x_um: float, y_um: float) -> HankelEnergy:
 
     Between samples it is the sum of the waves that they hold, which is the picture itself where they are `resolved`.
     """
+    from scipy import fft
+
     rows, columns = psf.values.shape
     size = fft.next_fast_len(3 * max(rows, columns))  # so that a circle of the window's size meets no copy of it
     room = np.zeros((size, size))

@@ -15,7 +15,6 @@ from math import pi
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebvander
-from scipy import fft
 
 from p2sf.conventions import write_protect
 from p2sf.errors import Cancelled, SamplingError
@@ -25,6 +24,7 @@ from p2sf.metrics.masked_transfer import MaskedLines, masked_lines, masked_sum
 from p2sf.metrics.perfect import circle_contrast
 from p2sf.pupil.phasors import cosine_sine
 from p2sf.pupil.quadrature import even_count
+from p2sf.threads import never
 
 FEWEST_LINES, LINES_PER_WAVE, LINES_PER_END = 48, 2.5, 0.75
 FEWEST_SAMPLES, SAMPLES_PER_WAVE = 128, 8.0
@@ -38,11 +38,6 @@ Counts = tuple[int, int]
 Sums = tuple[np.ndarray, np.ndarray]
 """Autocorrelations at even lags, complex, and those of the modulus, real."""
 Stop = Callable[[], bool]
-
-
-def never() -> bool:
-    """Return False: never cancelled."""
-    return False
 
 
 @dataclass(frozen=True, eq=False)
@@ -168,6 +163,8 @@ def column_sum(pupil: FrequencyPupil, counts: Counts, cancelled: Stop = never) -
 
     Up to a factor: of a symmetric pupil over half of the columns, those at Gauss–Chebyshev points with fx > 0.
     """
+    from scipy import fft
+
     columns, samples = counts
     lines = columns // len(pupil.domain.images)
     angle, step, size = (np.arange(lines) + 0.5) * (pi / columns), 2 / samples, samples + 4

@@ -2,18 +2,20 @@
 
 from collections.abc import Mapping, Sequence
 from math import sqrt
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from p2sf.tolerance.builds import Builds
+if TYPE_CHECKING:
+    from p2sf.tolerance.builds import Builds
+
 
 Criterion = Literal["rms_waves", "strehl", "mtf", "boresight_um"]
 CRITERIA: tuple[Criterion, ...] = ("rms_waves", "strehl", "mtf", "boresight_um")
 LARGE_IS_GOOD: tuple[Criterion, ...] = ("strehl", "mtf")
 
 
-def of_worst_field(found: Builds, criterion: Criterion) -> np.ndarray:
+def of_worst_field(found: "Builds", criterion: Criterion) -> np.ndarray:
     """Return the criterion of every build in its worst field, (builds,).
 
     That is the smallest Strehl ratio, or contrast in both directions, else the largest value.
@@ -42,7 +44,7 @@ def share_of(kept: np.ndarray) -> tuple[float, float]:
     return share, sqrt(inner * (1 - inner) / count)
 
 
-def share_within(found: Builds, limits: Mapping[Criterion, float]) -> tuple[float, float]:
+def share_within(found: "Builds", limits: Mapping[Criterion, float]) -> tuple[float, float]:
     """Return the share of builds within all limits in all fields, and its standard error."""
     kept = np.ones(len(found.errors), bool)
     for criterion, limit in limits.items():
@@ -56,7 +58,7 @@ def best_first(values: np.ndarray, criterion: Criterion) -> np.ndarray:
     return order
 
 
-def harms(alone: Builds, criterion: Criterion, compensators: Sequence[int] = ()) -> np.ndarray:
+def harms(alone: "Builds", criterion: Criterion, compensators: Sequence[int] = ()) -> np.ndarray:
     """Return the degradation of the worst field by each error at its limit, (errors,), the larger of both signs.
 
     ``alone`` is of `p2sf.tolerance.sensitivities`. A Strehl ratio that falls counts as positive; compensators are 0.

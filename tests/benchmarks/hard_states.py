@@ -22,7 +22,6 @@ from PySide6.QtWidgets import QApplication
 
 from p2sf.lensfile.library import shipped_lenses
 from p2sf.threads import one_blas_thread
-from p2sf_explorer.charts.theme import configure_plots
 from p2sf_explorer.compute.setup import with_lens
 from p2sf_explorer.state.state import State, change, new_state
 from p2sf_explorer.state.workspaces import on_stage
@@ -121,7 +120,6 @@ def lenses() -> None:
 def main(names: list[str]) -> None:
     """Run both, or the one that is named."""
     QApplication([]).setStyle("Fusion")
-    configure_plots()
     with one_blas_thread:
         for name, run in (("steps", steps), ("lenses", lenses)):
             if not names or name in names:

@@ -29,7 +29,7 @@ from PySide6.QtCore import QSize
 from PySide6.QtWidgets import QApplication, QWidget
 from threadpoolctl import threadpool_limits
 
-from p2sf_explorer.charts.theme import configure_plots, screen_scale
+from p2sf_explorer.charts.theme import screen_scale
 from p2sf_explorer.compute.quantities import RING_QUANTITIES
 from p2sf_explorer.compute.setup import prescription, ranges, with_lens
 from p2sf_explorer.state.build_errors import with_error
@@ -267,7 +267,6 @@ def main() -> None:
     options = parser.parse_args()
     application = QApplication([])
     application.setStyle("Fusion")
-    configure_plots()
     clock = Clock()
     lenses = tuple(options.lens or (LENSES[:1] if options.quick else LENSES))
     with threadpool_limits(1):

@@ -17,7 +17,6 @@ from time import perf_counter, process_time
 import pytest
 from threadpoolctl import threadpool_limits
 
-from p2sf_explorer.charts.theme import configure_plots
 from p2sf_explorer.state.state import new_state
 from p2sf_explorer.window.window import MainWindow
 
@@ -28,7 +27,6 @@ FRAME_MS, START_S = 16.0, 2.5
 @pytest.fixture(scope="module")
 def window(qapp):
     qapp.setStyle("Fusion")
-    configure_plots()
     with threadpool_limits(1):
         window = MainWindow(new_state(theme="light", method="seidel"), measured=False)
         window.resize(1440, 900)
@@ -92,9 +90,7 @@ from time import perf_counter
 start = perf_counter()
 from PySide6.QtWidgets import QApplication
 application = QApplication([])
-from p2sf_explorer.charts.theme import configure_plots
 from p2sf_explorer.window.window import MainWindow
-configure_plots()
 window = MainWindow()
 window.show()
 application.processEvents()

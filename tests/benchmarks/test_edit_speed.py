@@ -15,7 +15,6 @@ from time import perf_counter, process_time
 import pytest
 from threadpoolctl import threadpool_limits
 
-from p2sf_explorer.charts.theme import configure_plots
 from p2sf_explorer.state.state import new_state
 from p2sf_explorer.window.window import MainWindow
 
@@ -25,7 +24,6 @@ EDITS, EDIT_MS = 60, 30.0
 @pytest.fixture(scope="module")
 def window(qapp):
     qapp.setStyle("Fusion")
-    configure_plots()
     with threadpool_limits(1):
         window = MainWindow(new_state(theme="light", tab="lens"), measured=False)
         window.resize(1440, 900)

@@ -77,17 +77,18 @@ def opened():
     from PySide6.QtWidgets import QApplication
     if sys.argv[1] == "0.1":
         from app.state import State as fresh
-        from app.theme import configure_plots
+        from app import theme
         from app.window import Window
     else:
-        from p2sf_explorer.charts.theme import configure_plots
+        from p2sf_explorer.charts import theme
         from p2sf_explorer.state.state import new_state as fresh
         from importlib import import_module
         folder = "shell" if sys.argv[1] == "0.2" else "window"
         Window = import_module(f"p2sf_explorer.{folder}.window").MainWindow
     app = QApplication([])
     app.setStyle("Fusion")
-    configure_plots()
+    if hasattr(theme, "configure_plots"):  # of pyqtgraph, until 0.3
+        theme.configure_plots()
     window = Window(fresh(theme="light", method="seidel"), measured=False)
     window.resize(1440, 900)
     window.show()

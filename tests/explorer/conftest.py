@@ -9,7 +9,6 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from p2sf.psf import methods
-from p2sf_explorer.charts.theme import configure_plots
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.views import tolerances as analysis
 from p2sf_explorer.panels.image import panel as image
@@ -81,7 +80,6 @@ FIRST = new_state(method="seidel", theme="light", rail=("layout", "pupil", "coef
 @pytest.fixture(scope="session")
 def only_window(qapp):
     qapp.setStyle("Fusion")
-    configure_plots()
     made = MainWindow(FIRST, measured=False)
     made.resize(1440, 900)
     made.show()

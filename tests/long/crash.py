@@ -182,7 +182,6 @@ def use_for_ever(folder: Path, log: Path, seed: int) -> None:
     """Use a window at random and write down when it comes to which state."""
     from PySide6.QtWidgets import QApplication
 
-    from p2sf_explorer.charts.theme import configure_plots
     from p2sf_explorer.files.session_keeper import SessionKeeper
     from p2sf_explorer.window.window import MainWindow
     from tests.long.stress import overheard, own_files
@@ -190,7 +189,6 @@ def use_for_ever(folder: Path, log: Path, seed: int) -> None:
 
     application = QApplication([])
     application.setStyle("Fusion")
-    configure_plots()
     descriptor = os.open(log, os.O_CREAT | os.O_APPEND | os.O_WRONLY)
     with own_files(folder, seed), overheard(lambda words: None):
         made = MainWindow(new_state(method="seidel", theme="light", field_deg=0.1 * (seed + 1)), measured=False)

@@ -27,7 +27,6 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QFileDialog
 from threadpoolctl import threadpool_limits
 
-from p2sf_explorer.charts.theme import configure_plots
 from p2sf_explorer.state.state import new_state
 from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.window.memory_trim import REST_MS
@@ -151,7 +150,6 @@ def resident_mb() -> float:
 def main(minutes: float = 60.0, events: int = 200_000, seed: int = 0) -> int:
     application = QApplication(sys.argv[:1])
     application.setStyle("Fusion")
-    configure_plots()
     with threadpool_limits(limits=1):
         found = stress(60 * minutes, events, seed, lambda line: print(line, flush=True))
     print(found.words())

@@ -39,7 +39,6 @@ def use_everything(folder: str) -> None:
     """Open a window and in it every panel, the handbook, a lesson, the lenses, the palette; save what can be saved."""
     from PySide6.QtWidgets import QApplication
 
-    from p2sf_explorer.charts.theme import configure_plots
     from p2sf_explorer.files import recent
     from p2sf_explorer.files.session_keeper import RunMark, SessionKeeper
     from p2sf_explorer.state.panels import REGISTRY
@@ -48,7 +47,6 @@ def use_everything(folder: str) -> None:
 
     recent.recent_path = lambda: Path(folder) / "recent.json"
     application = QApplication([])
-    configure_plots()
     mark = RunMark()
     mark.begin()
     window = MainWindow(new_state(method="seidel"), measured=False)

@@ -192,10 +192,9 @@ class Window:
     def __init__(self) -> None:
         from PySide6.QtWidgets import QApplication
 
-        from p2sf_explorer.charts.theme import configure_plots, tokens
+        from p2sf_explorer.charts.theme import tokens
 
         self.app = QApplication.instance() or QApplication([])
-        configure_plots()
         self.theme, self.panels = tokens("light"), dict[str, Any]()
 
     def close(self) -> None:

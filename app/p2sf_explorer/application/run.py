@@ -12,7 +12,6 @@ from p2sf_explorer.application.language_switch import LanguageSwitch
 from p2sf_explorer.application.open_events import OpenEvents
 from p2sf_explorer.application.recovery import offer_rescued, session_to_open
 from p2sf_explorer.application.registration import ICON, NAME
-from p2sf_explorer.charts.theme import configure_plots
 from p2sf_explorer.files.session_keeper import RunMark, SessionKeeper
 from p2sf_explorer.state.state import State
 from p2sf_explorer.window.start_screen import first_start
@@ -56,5 +55,4 @@ def _qt_application() -> QApplication:
     QApplication.setDesktopFileName(NAME)
     QApplication.setWindowIcon(QIcon(str(ICON)))
     QApplication.setStyle("Fusion")
-    configure_plots()
     return application

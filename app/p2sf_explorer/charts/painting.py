@@ -8,9 +8,9 @@ from collections.abc import Iterator
 from functools import lru_cache
 
 import numpy as np
-from pyqtgraph.functions import create_qpolygonf, ndarray_from_qpolygonf
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen, QPolygonF, QStaticText, QTransform
+from shiboken6 import VoidPtr
 
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.i18n.tr import local
@@ -162,7 +162,9 @@ def polygon(x: np.ndarray, y: np.ndarray) -> QPolygonF:
     """Return points as a QPolygonF, copied in one block: point by point takes ten times as long."""
     if not len(x):  # of no points, the block is no memory to write to
         return QPolygonF()
-    copied: QPolygonF = create_qpolygonf(len(x))
-    points = ndarray_from_qpolygonf(copied)
+    copied = QPolygonF()
+    copied.resize(len(x))
+    block = VoidPtr(copied.data(), 16 * len(x), True)  # type: ignore[call-arg, arg-type]  # which its stub lacks
+    points = np.frombuffer(block, dtype=float).reshape(-1, 2)  # type: ignore[call-overload]  # it has a buffer
     points[:, 0], points[:, 1] = x, y
     return copied

@@ -2,10 +2,11 @@
 
 from dataclasses import replace
 from functools import lru_cache
+from importlib.util import find_spec
 from math import ceil
+from pathlib import Path
 
 import numpy as np
-import pyqtgraph as pg
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QHelpEvent, QLinearGradient, QMouseEvent, QPainter, QPaintEvent, QPen, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolTip, QWidget
@@ -29,10 +30,23 @@ EMPTY = 255  # the index of a colour table that is kept for "no value"
 @lru_cache(maxsize=8)
 def lookup(name: str) -> np.ndarray:
     """Return a colour table (256,) of 0xffRRGGBB whose last entry is for samples without a value."""
-    red, green, blue = pg.colormap.get(name).getLookupTable(nPts=255)[:, :3].astype(np.uint32).T
+    colours = _colour_map(name)
+    wanted = np.linspace(0, len(colours) - 1, EMPTY)
+    red, green, blue = (np.interp(wanted, np.arange(len(colours)), one).astype(np.uint32) for one in colours.T)
     table = np.full(256, 0xFFFFFFFF, dtype=np.uint32)
     table[:EMPTY] = 0xFF000000 | red << 16 | green << 8 | blue
     return table
+
+
+def _colour_map(name: str) -> np.ndarray:
+    """Return the colours of a map of pyqtgraph, (n, 3) from 0 to 255.
+
+    Read from its file, since all of pyqtgraph, which an import loads, takes a quarter of a second.
+    """
+    found = find_spec("pyqtgraph")
+    (folder,) = found.submodule_search_locations if found and found.submodule_search_locations else ("",)
+    table = np.loadtxt(Path(folder) / "colors" / "maps" / f"{name}.csv", delimiter=",", comments=";")
+    return np.floor(255 * table + 0.5)
 
 
 def colour_map_name(name: str, theme: Tokens) -> str:

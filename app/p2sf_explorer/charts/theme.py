@@ -4,7 +4,6 @@ import re
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-import pyqtgraph as pg
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QColor, QGuiApplication, QPalette
 
@@ -143,11 +142,6 @@ def _theme(choice: str) -> Tokens:
 def system_scheme() -> Qt.ColorScheme:
     """Return whether the system is light or dark at present."""
     return QGuiApplication.styleHints().colorScheme()
-
-
-def configure_plots() -> None:
-    """Set the options of all plots; call this once, before the first plot."""
-    pg.setConfigOptions(imageAxisOrder="row-major", antialias=True, background=None)
 
 
 def palette(theme: Tokens) -> QPalette:

@@ -10,7 +10,6 @@ import numpy as np
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
 from p2sf.metrics.wavefront_map import WavefrontMap, disc, map_of_samples
-from p2sf_explorer.compare.differences import subtract
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.deferred_sums import Request, SumCache
 from p2sf_explorer.compute.live import Live, ResultFunction
@@ -124,6 +123,8 @@ def larger(one: Least, other: Least) -> bool:
 
 def choose_side(state: State, a: Live, b: Live, views: Mapping[str, ResultFunction], begun: float) -> Live:
     """Return the answer on screen, its views computed."""
+    from p2sf_explorer.compare.differences import subtract
+
     chosen = b if state.compare.shown == "b" else a
     chosen = compute.with_views(replace(chosen, sides=(a.state, b.state)), views, begun)
     if state.compare.shown != "difference":

@@ -16,7 +16,6 @@ from p2sf.messages import Message
 from p2sf.paraxial.positions import edit_columns, with_columns
 from p2sf.paraxial.pupils import f_number, find_stop, stop_rim
 from p2sf.raytrace.focusing import sensor_in_focus
-from p2sf_explorer.compute.autofocus import best_shift_um
 from p2sf_explorer.compute.setup import load, paraxial_setup, prescription, with_rings
 from p2sf_explorer.state.scales import INFINITE, MM_PER_UNIT, read_number
 from p2sf_explorer.state.state import State, change
@@ -123,6 +122,8 @@ def best_focused(state: State, lens: Lens) -> tuple[State, Lens]:
 
     Where no shift focuses, the lens as it is.
     """
+    from p2sf_explorer.compute.autofocus import best_shift_um
+
     plain = change(state, focus_mm=None, sensor_shift_um=0.0)
     try:
         shift = best_shift_um(_with_lens(plain, lens))

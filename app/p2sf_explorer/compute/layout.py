@@ -37,7 +37,6 @@ from p2sf_explorer.compute.glass_outlines import (
 )
 from p2sf_explorer.compute.meridional import aim_ray, path
 from p2sf_explorer.compute.setup import ParaxialSetup, prescription
-from p2sf_explorer.state.built import exaggerate, with_errors
 from p2sf_explorer.state.scales import nice
 from p2sf_explorer.state.state import State
 
@@ -149,6 +148,8 @@ class Layout:
 
 def layout_of(state: State, setup: ParaxialSetup) -> Layout:
     """Return the `layout` as a state wants it drawn."""
+    from p2sf_explorer.state.built import exaggerate
+
     display, factor = state.display, 1
     if state.optics.errors and display.exaggerated > 1:
         _, factor = exaggerate(state.optics.errors, display.exaggerated)
@@ -159,6 +160,8 @@ def layout_of(state: State, setup: ParaxialSetup) -> Layout:
 
 def shown_lens(state: State, setup: ParaxialSetup) -> Lens:
     """Return the lens whose glass, stop and sensor are drawn: with its tilts and decentres enlarged as a state says."""
+    from p2sf_explorer.state.built import exaggerate, with_errors
+
     larger, factor = exaggerate(state.optics.errors, state.display.exaggerated)
     if factor == 1 or not state.optics.errors:
         return setup.lens

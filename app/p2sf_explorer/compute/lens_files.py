@@ -3,17 +3,21 @@
 import os
 from functools import lru_cache
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from p2sf.lensfile.importing import Import, import_lens
+if TYPE_CHECKING:
+    from p2sf.lensfile.importing import Import
 
 
-def import_of(path: str, accept_substitutes: bool = False) -> Import:
+def import_of(path: str, accept_substitutes: bool = False) -> "Import":
     """Return a lens file's lens and report, read again when the file has changed; P2SFError."""
     return _read(path, stamp(path), accept_substitutes)
 
 
 @lru_cache(maxsize=16)
-def _read(path: str, _stamp: tuple[int, int], accept_substitutes: bool) -> Import:
+def _read(path: str, _stamp: tuple[int, int], accept_substitutes: bool) -> "Import":
+    from p2sf.lensfile.importing import import_lens
+
     return import_lens(path, accept_substitutes)
 
 

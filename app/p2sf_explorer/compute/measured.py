@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -10,12 +11,13 @@ from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.metrics.energy import blur_waves
 from p2sf.metrics.frequency_pupil import pupil_of_coefficients, pupil_of_rays
-from p2sf.metrics.measures import Energy, PupilPart, pupil_of_six
-from p2sf.metrics.transfer import otf_samples
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.sampled import by_coefficients
+
+if TYPE_CHECKING:
+    from p2sf.metrics.measures import Energy, PupilPart
 
 LIVE_SAMPLES = 2**18  # of both slices of a transfer function: some 5 ms, and a blur of 64 waves per pupil radius
 LIVE_WAVES = 40.0  # per pupil radius, of a blur whose energy is live: some 15 ms
@@ -57,8 +59,10 @@ def measure_request(live: Live) -> MeasureRequest:
 
 
 @lru_cache(maxsize=4)
-def measured_parts(request: MeasureRequest) -> tuple[PupilPart, ...]:
+def measured_parts(request: MeasureRequest) -> "tuple[PupilPart, ...]":
     """Return the pupil of a request; P2SFError where there is none."""
+    from p2sf.metrics.measures import PupilPart, pupil_of_six
+
     if request.six:
         six = Coefficients(*map(np.asarray, request.six))
         if request.by_hand:
@@ -69,6 +73,8 @@ def measured_parts(request: MeasureRequest) -> tuple[PupilPart, ...]:
 
 def mtf_is_live(live: Live, request: MeasureRequest) -> bool:
     """Return whether the transfer function is computed within a frame; behind a mask it takes some 40 ms."""
+    from p2sf.metrics.transfer import otf_samples
+
     if takes_long(live) or not request.lens.mask.clear:
         return False
     return otf_samples(measured_parts(request)[0].pupil) <= LIVE_SAMPLES
@@ -90,7 +96,7 @@ def takes_long(live: Live) -> bool:
     return live.slow or live.psf.method == "geometric"
 
 
-def energy_at(found: Energy, radius_um: np.ndarray) -> np.ndarray:
+def energy_at(found: "Energy", radius_um: np.ndarray) -> np.ndarray:
     """Return the energy within any radii: between the tabulated ones, beyond them 1 − c/R, as of every hard edge."""
     last, share = float(found.radius_um[-1]), float(found.fraction[-1])
     inside = smooth(radius_um, found.radius_um, found.fraction)

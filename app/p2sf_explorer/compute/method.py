@@ -12,7 +12,6 @@ from p2sf.metrics.wavefront_map import WavefrontMap
 from p2sf.paraxial.seidel import Coefficients, reason_against_coefficients
 from p2sf.paraxial.wavefront import steepest_slope
 from p2sf.psf.cost import coefficient_node_count, fit_node_count, nodes_beyond, seconds
-from p2sf.psf.geometric import geometric_psf, main_reach_um
 from p2sf.psf.methods import FITTED, SEIDEL, TRACED, Choice, PsfRequest, by_six, choose, psf_of
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_focus, check_image
@@ -343,6 +342,8 @@ def clipped_picture(task: Task, window: Window, quality: str) -> Rendered:
 
 def ray_density_picture(task: Task, window: Window, quality: str = "settled") -> Rendered:
     """Return the density of rays over a window."""
+    from p2sf.psf.geometric import geometric_psf
+
     psf = geometric_psf(task.setup.lens, task.setup.source, window, quality, task.state.optics.clip, task.six)
     return Rendered(psf, density_reason(psf), task.exact, task.method)
 
@@ -385,6 +386,8 @@ def width_um(setup: ParaxialSetup, exact: bool, found: Extent, clip: bool) -> fl
 
     It holds every ray, or most of the light where some rays land far out, and what diffraction adds.
     """
+    from p2sf.psf.geometric import main_reach_um
+
     whole = round_width_um(found.landing_um, found.airy_um)
     if found.slope <= STEEP:
         return whole

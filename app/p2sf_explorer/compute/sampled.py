@@ -1,6 +1,5 @@
 """Small PSFs of the present setup with something changed, for panels that show many of them."""
 
-from p2sf.psf.geometric import geometric_psf
 from p2sf.psf.methods import FITTED, SEIDEL, TRACED, by_six, psf_of
 from p2sf.psf.result import Psf
 from p2sf_explorer.compute.deferred_sums import psf_request
@@ -27,6 +26,8 @@ def in_window(state: State, window: tuple[int, float], six: bool) -> Psf:
     Where rays are lost they are summed one by one; where blur dwarfs diffraction their density is shown. Raises
     P2SFError's kinds where there is no PSF.
     """
+    from p2sf.psf.geometric import geometric_psf
+
     setup = paraxial_setup(state)
     task = Task(state, setup, (SEIDEL if six or setup.altered else FITTED).name, NO_REASON, ALONE, None)
     if too_coarse(task, window):

@@ -31,7 +31,6 @@ from p2sf_explorer.compute.ranges import (
     wavelength_range,
 )
 from p2sf_explorer.state.build_errors import BuildErrors
-from p2sf_explorer.state.built import with_errors
 from p2sf_explorer.state.limits import MASK, RINGS, SLIDERS
 from p2sf_explorer.state.scales import nice
 from p2sf_explorer.state.state import Optics, State, change, new_state
@@ -141,6 +140,8 @@ def prescription(state: State) -> Lens:
 
 def built_lens(state: State) -> Lens:
     """Return the state's `prescription` with the errors of its build; P2SFError where these cannot be."""
+    from p2sf_explorer.state.built import with_errors
+
     lens, errors = prescription(state), state.optics.errors
     return with_errors(lens, errors) if errors else lens
 
@@ -298,6 +299,8 @@ def _axial(prescription: Lens, request: Request, errors: BuildErrors) -> _Axial:
 
 def _with_errors(setup: Setup, errors: BuildErrors) -> Setup:
     """Return a setup with errors in its lens, whose sensor and rings stay where a lens without errors has them."""
+    from p2sf_explorer.state.built import with_errors
+
     lens = with_errors(setup.lens, errors)
     stop = find_stop(lens, setup.source.depth_mm, setup.source.wavelength_um)
     return replace(setup, lens=lens, stop=stop, prescription=with_errors(setup.prescription, errors))

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QFileDialog, QInputDialog, QWidget
@@ -10,16 +11,14 @@ from PySide6.QtWidgets import QFileDialog, QInputDialog, QWidget
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
 from p2sf_explorer.charts.theme import Tokens
-from p2sf_explorer.course.course_list import CourseList
-from p2sf_explorer.course.lectures import course_version, task_keys
-from p2sf_explorer.course.results_table import read_folder
-from p2sf_explorer.course.results_window import ResultsWindow
-from p2sf_explorer.files.asking import ask_path
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.lessons.controller import LessonController
-from p2sf_explorer.lessons.task_record import write_result
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.command import Command
+
+if TYPE_CHECKING:
+    from p2sf_explorer.course.course_list import CourseList
+    from p2sf_explorer.course.results_window import ResultsWindow
 
 NOTHING = Message("There are no answers yet; work through a lecture first")
 
@@ -43,6 +42,8 @@ class Course(QObject):
 
     def open_list(self) -> None:
         """Open the list of lectures."""
+        from p2sf_explorer.course.course_list import CourseList
+
         if self.list is None:
             self.list = CourseList(self._teaching.lectures, self._teaching.desk.result, self._window)
             self.list.chosen.connect(self._teaching.begin)
@@ -58,6 +59,8 @@ class Course(QObject):
 
     def ask_save(self) -> None:
         """Ask for name and file, and write the results."""
+        from p2sf_explorer.files.asking import ask_path
+
         result = self._teaching.desk.result()
         if not result.tasks:
             self._store.said.emit(NOTHING)
@@ -72,6 +75,9 @@ class Course(QObject):
 
     def save(self, name: str, path: Path) -> None:
         """Write the results under a name."""
+        from p2sf_explorer.course.lectures import course_version
+        from p2sf_explorer.lessons.task_record import write_result
+
         result = replace(self._teaching.desk.result(), name=" ".join(name.split()), course=course_version())
         try:
             write_result(path, result)
@@ -88,6 +94,10 @@ class Course(QObject):
 
     def open_folder(self, folder: Path) -> None:
         """Open a folder of results as a table."""
+        from p2sf_explorer.course.lectures import course_version, task_keys
+        from p2sf_explorer.course.results_table import read_folder
+        from p2sf_explorer.course.results_window import ResultsWindow
+
         try:
             table = read_folder(folder, task_keys(self._teaching.lectures().values()))
         except P2SFError as error:

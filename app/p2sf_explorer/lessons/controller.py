@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from PySide6.QtCore import QEvent, QObject, QTimer
 from PySide6.QtWidgets import QLabel, QSplitter, QWidget
@@ -15,29 +15,31 @@ from p2sf_explorer.charts.theme import SPACE, Tokens
 from p2sf_explorer.files import recent
 from p2sf_explorer.i18n.language import current_language
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.lessons.lesson import FOLDER, PERSONAL, Lesson, found_lessons, own_folder
-from p2sf_explorer.lessons.lesson_list import LessonList, content
-from p2sf_explorer.lessons.lesson_panel import LessonPanel, StepFrame
-from p2sf_explorer.lessons.making.lesson_maker import LessonMaker
-from p2sf_explorer.lessons.making.lesson_test_window import LessonTestWindow
 from p2sf_explorer.lessons.task_desk import TaskDesk
 from p2sf_explorer.state.state import State, change, entry
 from p2sf_explorer.state.workspaces import Workspace, arrangement
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.command import Command
 
+if TYPE_CHECKING:
+    from p2sf_explorer.lessons.lesson import Lesson
+    from p2sf_explorer.lessons.lesson_list import LessonList
+    from p2sf_explorer.lessons.lesson_panel import LessonPanel
+    from p2sf_explorer.lessons.making.lesson_maker import LessonMaker
+    from p2sf_explorer.lessons.making.lesson_test_window import LessonTestWindow
+
 SLIDER_SHARE = 0.38  # of the column's height for the sliders below the page of a lesson, at least
 PAGE_LINES = 29  # of text: a page that is higher leaves the sliders more, up to all that they need
 
 
-Finder = Callable[[str], tuple[dict[str, Lesson], tuple[P2SFError, ...]]]
+Finder = Callable[[str], "tuple[dict[str, Lesson], tuple[P2SFError, ...]]"]
 """What finds lessons in a language: by name, and the errors of files that are none."""
 NO_LESSON = Message("There is no lesson under way; begin one, or press Test my lesson where you make one")
 NOTHING_BEFORE = Message("The window began with this lesson, so there is nothing to restore; its lens stays")
 UNTRANSLATED = Message("This lesson has not been translated; here is the original")
 
 
-def no_lectures(language: str) -> tuple[dict[str, Lesson], tuple[P2SFError, ...]]:
+def no_lectures(language: str) -> "tuple[dict[str, Lesson], tuple[P2SFError, ...]]":
     """Return no lectures."""
     return {}, ()
 
@@ -113,6 +115,8 @@ class LessonController(QObject):
 
     def listed(self) -> tuple[Command, ...]:
         """Return a command for each lesson, found by all its words."""
+        from p2sf_explorer.lessons.lesson_list import content
+
         return tuple(
             Command(lesson.title, partial(self.begin, name), (), "Lesson", content(lesson), worded=True)
             for name, lesson in (self.lessons() | self.lectures()).items()
@@ -120,6 +124,8 @@ class LessonController(QObject):
 
     def open_list(self) -> None:
         """Open the list of lessons with their pictures."""
+        from p2sf_explorer.lessons.lesson_list import LessonList
+
         if self.list is None:
             self.list = LessonList(self.lessons, self._window)
             self.list.chosen.connect(self.begin)
@@ -127,6 +133,9 @@ class LessonController(QObject):
 
     def make(self) -> None:
         """Open the dialog that makes a lesson of what is on screen."""
+        from p2sf_explorer.lessons.lesson import own_folder
+        from p2sf_explorer.lessons.making.lesson_maker import LessonMaker
+
         if self.maker is None:
             self.maker = LessonMaker(self.store, own_folder, self._window)
             self.maker.made.connect(self.open_made)
@@ -134,6 +143,8 @@ class LessonController(QObject):
 
     def test(self) -> None:
         """Test the lesson under way: its claims, the names of its controls, its tasks."""
+        from p2sf_explorer.lessons.making.lesson_test_window import LessonTestWindow
+
         place = self.store.state.lesson
         if lesson := self.shelf(place.name).get(place.name):
             self.tester = self.tester or LessonTestWindow(self._window)
@@ -154,25 +165,27 @@ class LessonController(QObject):
         if self.tester:
             self.tester.close()
 
-    def lessons(self) -> dict[str, Lesson]:
+    def lessons(self) -> "dict[str, Lesson]":
         """Return the lessons by name; the banner tells of a bad file, and the others open."""
+        from p2sf_explorer.lessons.lesson import FOLDER, found_lessons, own_folder
+
         if not self._lessons:
             self._lessons = self._told_of(found_lessons((FOLDER, own_folder()), current_language()))
         return self._lessons
 
-    def lectures(self) -> dict[str, Lesson]:
+    def lectures(self) -> "dict[str, Lesson]":
         """Return the lectures and concept checks by name."""
         if self._lectures is None:
             self._lectures = self._told_of(self._find_lectures(current_language()))
         return self._lectures
 
-    def _told_of(self, found: tuple[dict[str, Lesson], tuple[P2SFError, ...]]) -> dict[str, Lesson]:
+    def _told_of(self, found: "tuple[dict[str, Lesson], tuple[P2SFError, ...]]") -> "dict[str, Lesson]":
         lessons, faults = found
         if faults:  # after the picture of the step, which takes the banner away
             QTimer.singleShot(0, lambda: self.store.refused.emit(faults[0]))
         return lessons
 
-    def shelf(self, name: str) -> dict[str, Lesson]:
+    def shelf(self, name: str) -> "dict[str, Lesson]":
         """Return the lessons or lectures among which one of this name stands, none where there is none."""
         if name in self.lessons():
             return self.lessons()
@@ -236,6 +249,8 @@ class LessonController(QObject):
 
     def leave(self) -> None:
         """End the lesson and go back to the state before it, which is among the steps of undo."""
+        from p2sf_explorer.lessons.lesson import PERSONAL
+
         here = change(self.store.state, lesson_name="", lesson_step=0, lesson_told=False)
         kept = {name: entry(here, name) for name in PERSONAL}
         before = self.store.latest(lambda state: not state.lesson.name)
@@ -268,7 +283,9 @@ class LessonController(QObject):
             self.panel.setVisible(lesson is not None)
         self._point(slider)
 
-    def _show_step(self, lesson: Lesson, number: int, told: bool) -> None:
+    def _show_step(self, lesson: "Lesson", number: int, told: bool) -> None:
+        from p2sf_explorer.lessons.lesson_panel import StepFrame
+
         if self.panel is None:
             return
         task = lesson.steps[number].task
@@ -282,7 +299,7 @@ class LessonController(QObject):
         self.panel.show_step(lesson, number, frame)
         self.desk.show(lesson, number)
 
-    def _list(self, shelf: dict[str, Lesson]) -> None:
+    def _list(self, shelf: "dict[str, Lesson]") -> None:
         """Offer the lessons of a shelf in the page's list."""
         if self.panel and self._on_offer != tuple(shelf.values()):
             self._on_offer = tuple(shelf.values())
@@ -293,13 +310,15 @@ class LessonController(QObject):
         """Return whether the page of a lesson is on show."""
         return self.panel is not None and not self.panel.isHidden()
 
-    def _tell_untranslated(self, lesson: Lesson) -> None:
+    def _tell_untranslated(self, lesson: "Lesson") -> None:
         """Say once that a lesson is in another language than the window, after the picture of its step is there."""
         if not self._told_untranslated and lesson.language != current_language():
             self._told_untranslated = True
             QTimer.singleShot(0, lambda: self.store.said.emit(UNTRANSLATED))
 
-    def _new_panel(self) -> LessonPanel:
+    def _new_panel(self) -> "LessonPanel":
+        from p2sf_explorer.lessons.lesson_panel import LessonPanel
+
         made = LessonPanel((), self._window)
         self.desk.serve(made.task)
         made.chosen.connect(self.begin)

@@ -1,25 +1,29 @@
 """A lesson in the hall: keys of a presenter's remote, the question large, a black screen, notes in their own window."""
 
+from functools import cached_property
+from typing import TYPE_CHECKING
+
 from PySide6.QtCore import QEvent, QObject, QRect, Qt
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QWidget
 
-from p2sf_explorer.lessons.changes import apply_changes
-from p2sf_explorer.lessons.controller import LessonController
 from p2sf_explorer.lessons.hall_card import HallCard
-from p2sf_explorer.lessons.lesson import Lesson, Step
-from p2sf_explorer.lessons.notes import NotesWindow
 from p2sf_explorer.state.state import State
 from p2sf_explorer.widgets.command import Command
+
+if TYPE_CHECKING:
+    from p2sf_explorer.lessons.controller import LessonController
+    from p2sf_explorer.lessons.lesson import Lesson, Step
+    from p2sf_explorer.lessons.notes import NotesWindow
 
 
 class Hall(QObject):
     """While ``presenting``, Page Down goes from picture to question, answer and next step, and Page Up back."""
 
-    def __init__(self, teaching: LessonController, stage: QWidget, window: QWidget) -> None:
+    def __init__(self, teaching: "LessonController", stage: QWidget, window: QWidget) -> None:
         super().__init__(window)
         self._teaching, self._store, self._window = teaching, teaching.store, window
-        self.card, self.notes = HallCard(stage), NotesWindow(window)
+        self.card = HallCard(stage)
         self.black = QWidget(window)
         self.black.setStyleSheet("background: black;")
         self.black.hide()
@@ -38,6 +42,18 @@ class Hall(QObject):
         self._step: tuple[str, int] = "", 0
         self._store.changed.connect(self._follow)
 
+    @cached_property
+    def notes(self) -> "NotesWindow":
+        """The window of the notes, made when it is first wanted."""
+        from p2sf_explorer.lessons.notes import NotesWindow
+
+        return NotesWindow(self._window)
+
+    @property
+    def _noted(self) -> bool:
+        """Whether the notes are on show."""
+        return "notes" in vars(self) and self.notes.isVisible()
+
     def commands(self) -> tuple[Command, ...]:
         """Return what can be done while teaching."""
         return (Command("Notes of the lesson in a window of their own", self.turn_notes, ("Ctrl+F5",), "Lessons"),)
@@ -55,16 +71,17 @@ class Hall(QObject):
         if on and room and self._lesson():
             self.notes.move(room.topLeft())
             self.notes.resize(self.notes.size().boundedTo(room.size()))
-            if not self.notes.isVisible():
+            if not self._noted:
                 self.turn_notes()
         elif not on:
-            self.notes.end()
+            if self._noted:
+                self.notes.end()
             self.card.put_away()
             self.black.hide()
 
     def turn_notes(self) -> None:
         """Show the notes, or put them away."""
-        if self.notes.isVisible():
+        if self._noted:
             self.notes.end()
         elif self._lesson():
             self.notes.begin()
@@ -94,27 +111,29 @@ class Hall(QObject):
             self.card.put_away()
             self._teaching.move(by)
 
-    def _tell(self, step: Step) -> None:
+    def _tell(self, step: "Step") -> None:
         """Show the answer, and the state that the question had asked to predict."""
+        from p2sf_explorer.lessons.changes import apply_changes
+
         self.card.tell(step)
         lesson, now = self._lesson(), self._store.state
         if lesson and step.task and step.task.see:
             self._store.replace(apply_changes(lesson.state(self._step[1], now), step.task.see))
 
-    def _lesson(self) -> Lesson | None:
+    def _lesson(self) -> "Lesson | None":
         name = self._store.state.lesson.name
         return self._teaching.shelf(name).get(name) if name else None
 
     def _follow(self, state: State) -> None:
         """Follow the step of a state while it is presented or noted; another step puts the question away."""
-        lesson = self._lesson() if self.presenting or self.notes.isVisible() else None
+        lesson = self._lesson() if self.presenting or self._noted else None
         for shortcut in self.shortcuts:
             shortcut.setEnabled(self.presenting and lesson is not None)
         number = min(state.lesson.step, len(lesson.steps) - 1) if lesson else 0
         if (state.lesson.name, number) != self._step:
             self._step = state.lesson.name, number
             self.card.put_away()
-        if lesson and self.notes.isVisible():
+        if lesson and self._noted:
             self.notes.show_step(lesson, number)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:

@@ -1,14 +1,15 @@
 """The question of a step, large over the stage, with a countdown, and then its answer."""
 
+from typing import TYPE_CHECKING
+
 from PySide6.QtCore import QEvent, QObject, QRectF, Qt, QTimer
 from PySide6.QtGui import QMouseEvent, QPainter, QPaintEvent, QPalette, QPen
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from p2sf_explorer.i18n.tr import local, tr, unbroken
-from p2sf_explorer.lessons.answer_fields import letter
-from p2sf_explorer.lessons.lesson import Step
-from p2sf_explorer.lessons.lesson_panel import rich
-from p2sf_explorer.lessons.task import ChoiceAnswer, display_order
+
+if TYPE_CHECKING:
+    from p2sf_explorer.lessons.lesson import Step
 
 SECONDS = 60
 LINES, FEWEST_PX = 22, 14  # lines of type on the height of a stage; the smallest type
@@ -93,12 +94,12 @@ class HallCard(QFrame):
         stage.installEventFilter(self)
         self.hide()
 
-    def ask(self, step: Step) -> None:
+    def ask(self, step: "Step") -> None:
         """Show the question of a step, with its options by their letters, and start the countdown."""
         self._fill(step, False)
         self.countdown.begin()
 
-    def tell(self, step: Step) -> None:
+    def tell(self, step: "Step") -> None:
         """Show the answer under the question, and of the options the right one."""
         self.countdown.stop()
         self._fill(step, True)
@@ -113,7 +114,9 @@ class HallCard(QFrame):
         """Return whether the answer is on show."""
         return self.isVisible() and self._told
 
-    def _fill(self, step: Step, told: bool) -> None:
+    def _fill(self, step: "Step", told: bool) -> None:
+        from p2sf_explorer.lessons.lesson_panel import rich
+
         self._told = told
         self.question.setText(unbroken(local(step.question)))
         parts = options_of(step, told)
@@ -154,8 +157,12 @@ class HallCard(QFrame):
         self.setGeometry((room.width() - wide) // 2, top, wide, high)
 
 
-def options_of(step: Step, told: bool) -> list[str]:
+def options_of(step: "Step", told: bool) -> list[str]:
     """Return the options of a choice as lines of HTML; only the right one once it is ``told``."""
+    from p2sf_explorer.lessons.answer_fields import letter
+    from p2sf_explorer.lessons.lesson_panel import rich
+    from p2sf_explorer.lessons.task import ChoiceAnswer, display_order
+
     task = step.task
     if task is None or not isinstance(task.answer, ChoiceAnswer):
         return []

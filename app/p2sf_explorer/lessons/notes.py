@@ -1,11 +1,14 @@
 """What a lecturer reads while a lesson is presented: the note, the question with its answer, what comes next."""
 
+from typing import TYPE_CHECKING
+
 from PySide6.QtCore import QElapsedTimer, Qt, QTimer
 from PySide6.QtWidgets import QLabel, QScrollArea, QVBoxLayout, QWidget
 
 from p2sf_explorer.i18n.tr import local, tr
-from p2sf_explorer.lessons.lesson import Lesson
-from p2sf_explorer.lessons.lesson_panel import rich, wrapped_label
+
+if TYPE_CHECKING:
+    from p2sf_explorer.lessons.lesson import Lesson
 
 SIZE = 520, 640
 KEYS = "Page Down goes on, Page Up back, B blanks the screen, T stops the countdown"
@@ -15,6 +18,8 @@ class NotesWindow(QWidget):
     """A window of its own, for the screen that the hall does not see."""
 
     def __init__(self, parent: QWidget) -> None:
+        from p2sf_explorer.lessons.lesson_panel import wrapped_label
+
         super().__init__(parent, Qt.WindowType.Window)
         self.setObjectName("window")
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
@@ -55,8 +60,10 @@ class NotesWindow(QWidget):
         seconds = self._since.elapsed() // 1000
         self.clock.setText(f"{seconds // 60}:{seconds % 60:02d}")
 
-    def show_step(self, lesson: Lesson, number: int) -> None:
+    def show_step(self, lesson: "Lesson", number: int) -> None:
         """Show what belongs to a step."""
+        from p2sf_explorer.lessons.lesson_panel import rich
+
         step, following = lesson.steps[number], lesson.steps[number + 1 : number + 2]
         self.place.setText(f"{lesson.title} · {tr('step {k} of {n}', k=number + 1, n=len(lesson.steps))}")
         parts = [f"**{step.title}**", step.note or step.text]

@@ -3,20 +3,21 @@
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QElapsedTimer, QObject, Signal
 
 from p2sf.errors import ExportError, P2SFError
-from p2sf.version import program_version
 from p2sf_explorer.i18n.language import current_language
 from p2sf_explorer.i18n.messages import said
-from p2sf_explorer.lessons.changes import apply_changes
-from p2sf_explorer.lessons.lesson import Lesson
-from p2sf_explorer.lessons.task import SEPARATOR, Exercise, NumericAnswer
-from p2sf_explorer.lessons.task_panel import TaskPanel, TaskView
-from p2sf_explorer.lessons.task_record import CourseResult, TaskRecord, read_result, write_result
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.typed import typed
+
+if TYPE_CHECKING:
+    from p2sf_explorer.lessons.lesson import Lesson
+    from p2sf_explorer.lessons.task import Exercise
+    from p2sf_explorer.lessons.task_panel import TaskPanel, TaskView
+    from p2sf_explorer.lessons.task_record import CourseResult, TaskRecord
 
 LONGEST_S = 1800.0  # that counts between two answers: who goes away for lunch does not work
 
@@ -35,22 +36,27 @@ class TaskDesk(QObject):
         self._clock = QElapsedTimer()
         self._read: tuple[int, CourseResult] | None = None  # with the time of the file
 
-    def serve(self, panel: TaskPanel) -> None:
+    def serve(self, panel: "TaskPanel") -> None:
         """Take the answers of a panel."""
         self._panel = panel
         panel.answered.connect(self.answer)
         panel.hint_asked.connect(self.give_hint)
         panel.again_asked.connect(self.set_up)
 
-    def result(self) -> CourseResult:
+    def result(self) -> "CourseResult":
         """Return all records so far; a damaged file is put aside and told of."""
+        from p2sf.version import program_version
+        from p2sf_explorer.lessons.task_record import CourseResult
+
         path = self._path()
         time = path.stat().st_mtime_ns if path.is_file() else 0
         if self._read is None or self._read[0] != time:  # another window writes it too
             self._read = time, self._load(path) if time else CourseResult()
         return replace(self._read[1], program=program_version(), language=current_language())
 
-    def _load(self, path: Path) -> CourseResult:
+    def _load(self, path: Path) -> "CourseResult":
+        from p2sf_explorer.lessons.task_record import CourseResult, read_result
+
         try:
             return read_result(path)
         except ExportError as error:
@@ -58,13 +64,15 @@ class TaskDesk(QObject):
             path.replace(path.with_suffix(".damaged"))
             return CourseResult()
 
-    def view(self, lesson: Lesson, task: Exercise) -> TaskView:
+    def view(self, lesson: "Lesson", task: "Exercise") -> "TaskView":
         """Return how far a task of a lesson is."""
+        from p2sf_explorer.lessons.task_panel import TaskView
+
         record = self.result().record(lesson.name, task.name)
         left = max(0, lesson.attempts - record.attempts) if lesson.attempts else None
         return TaskView(task, record, left, lesson.silent)
 
-    def show(self, lesson: Lesson, number: int) -> None:
+    def show(self, lesson: "Lesson", number: int) -> None:
         """Show the task of a step in the panel, hidden where it has none."""
         another = (lesson, number) != (self._lesson, self._number)
         if another:
@@ -78,6 +86,9 @@ class TaskDesk(QObject):
 
     def answer(self, text: str) -> None:
         """Judge an answer to the task on show, note it, and show what it predicted."""
+        from p2sf_explorer.lessons.changes import apply_changes
+        from p2sf_explorer.lessons.task import SEPARATOR, NumericAnswer
+
         lesson, task = self._lesson, self._task()
         if not (lesson and task and self._panel):
             return
@@ -112,23 +123,25 @@ class TaskDesk(QObject):
         if self._lesson:
             self._store.replace(self._lesson.state(self._number, self._store.state))
 
-    def note_told(self, lesson: Lesson, number: int) -> None:
+    def note_told(self, lesson: "Lesson", number: int) -> None:
         """Note that the solution of a step's task has been shown before it was right."""
         task = lesson.steps[number].task
         if task and not (record := self.result().record(lesson.name, task.name)).right and not record.told:
             if not lesson.attempts:
                 self._keep(lesson, task, replace(record, told=True))
 
-    def _task(self) -> Exercise | None:
+    def _task(self) -> "Exercise | None":
         return self._lesson.steps[self._number].task if self._lesson else None
 
-    def _record(self, lesson: Lesson, task: Exercise) -> TaskRecord:
+    def _record(self, lesson: "Lesson", task: "Exercise") -> "TaskRecord":
         """Return the record of a task with the time since it was last looked at."""
         seconds = min(LONGEST_S, self._clock.restart() / 1000)
         record = self.result().record(lesson.name, task.name)
         return replace(record, seconds=round(record.seconds + seconds, 1))
 
-    def _keep(self, lesson: Lesson, task: Exercise, record: TaskRecord) -> None:
+    def _keep(self, lesson: "Lesson", task: "Exercise", record: "TaskRecord") -> None:
+        from p2sf_explorer.lessons.task_record import write_result
+
         path = self._path()
         try:
             path.parent.mkdir(parents=True, exist_ok=True)

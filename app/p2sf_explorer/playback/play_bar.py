@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QSize
 from PySide6.QtGui import QResizeEvent
@@ -18,10 +19,7 @@ from PySide6.QtWidgets import (
 
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
-from p2sf_explorer.compute.views.tolerances import ToleranceQuestion, ToleranceResult
-from p2sf_explorer.files.asking import ask_path
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.playback.builds import BUILDS_PER_S, moments_of_builds
 from p2sf_explorer.playback.filming import FRAMES_PER_S, Filming, moments_of_sweep
 from p2sf_explorer.playback.player import Player
 from p2sf_explorer.playback.sweep import TITLES, Moment, sweep
@@ -32,6 +30,9 @@ from p2sf_explorer.widgets.card import chooser, select
 from p2sf_explorer.widgets.command import Command
 from p2sf_explorer.widgets.typed import typed
 from p2sf_explorer.widgets.value_edit import ValueEdit
+
+if TYPE_CHECKING:
+    from p2sf_explorer.compute.views.tolerances import ToleranceQuestion, ToleranceResult
 
 FILMS = "Animated GIF (*.gif);;MP4 film (*.mp4);;Numbered PNG frames (*.png)"
 LINE_AIR = 32  # pixels beside the parts of the bar where they stand on one line
@@ -58,7 +59,7 @@ class PlayBar(QFrame):
         store: Store,
         filming: Filming,
         part: Callable[[str], QWidget],
-        builds: Callable[[], tuple[ToleranceQuestion, ToleranceResult]],
+        builds: "Callable[[], tuple[ToleranceQuestion, ToleranceResult]]",
         parent: QWidget,
     ) -> None:
         super().__init__(parent)
@@ -205,12 +206,16 @@ class PlayBar(QFrame):
 
     def ask_film_of_builds(self) -> None:
         """Ask for a name and film random builds; say why where there are none."""
+        from p2sf_explorer.playback.builds import moments_of_builds
+
         moments = self._moments(lambda: moments_of_builds(*self._builds()))
         if moments and (path := self._asked_path("builds")):
             self.film_builds(path, moments)
 
     def _asked_path(self, what: str) -> str:
         """Return where a person wants the film of something, "" for nowhere."""
+        from p2sf_explorer.files.asking import ask_path
+
         first = f"{Path(self._store.state.optics.lens).stem}_{what}.gif"
         return ask_path(self.window(), tr("Save a film"), first, tr(FILMS))
 
@@ -221,6 +226,8 @@ class PlayBar(QFrame):
 
     def film_builds(self, path: str, moments: tuple[Moment, ...]) -> bool:
         """Film builds, all panels of the window, to a file; return whether it began."""
+        from p2sf_explorer.playback.builds import BUILDS_PER_S
+
         return self._film(path, "stack", moments, BUILDS_PER_S)
 
     def _moments(self, make: Callable[[], tuple[Moment, ...]]) -> tuple[Moment, ...]:

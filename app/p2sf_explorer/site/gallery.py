@@ -9,7 +9,7 @@ from PySide6.QtCore import QEventLoop, QSize, QTimer
 from PySide6.QtWidgets import QApplication
 
 from p2sf.messages import Message
-from p2sf_explorer.charts.theme import configure_plots, screen_scale
+from p2sf_explorer.charts.theme import screen_scale
 from p2sf_explorer.compute.setup import first_state
 from p2sf_explorer.i18n.language import ENGLISH, set_language
 from p2sf_explorer.lessons.lesson import shipped_lessons
@@ -156,7 +156,6 @@ def main() -> None:
     folder.mkdir(parents=True, exist_ok=True)
     _application = QApplication.instance() or QApplication(sys.argv[:1])  # kept: without a reference it would end
     QApplication.setStyle("Fusion")
-    configure_plots()
     for name, state in states().items():
         for size, pixels in SIZES.items():
             if size in sizes_of(name) and size in options.sizes and name.startswith(tuple(options.names)):

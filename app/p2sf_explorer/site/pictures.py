@@ -8,7 +8,6 @@ from tempfile import TemporaryDirectory
 
 from PySide6.QtWidgets import QApplication
 
-from p2sf_explorer.charts.theme import configure_plots
 from p2sf_explorer.compute.setup import first_state
 from p2sf_explorer.i18n.language import ENGLISH, set_language
 from p2sf_explorer.lessons.lesson import shipped_lessons
@@ -65,7 +64,6 @@ def shown_windows(states: dict[str, State]) -> Iterator[tuple[str, MainWindow]]:
     """Yield each name with the window that shows its state, in English and at rest."""
     _application = QApplication.instance() or QApplication(sys.argv[:1])  # kept: without a reference it would end
     QApplication.setStyle("Fusion")
-    configure_plots()
     set_language(ENGLISH)
     window = MainWindow(FIRST)
     window.resize(*SIZE)

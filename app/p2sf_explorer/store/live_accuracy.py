@@ -1,17 +1,21 @@
 """Measures every settled picture against the Huygens reference in the background, for the panels that show it."""
 
 from collections.abc import Callable
-from typing import Protocol, runtime_checkable
+from functools import partial
+from threading import Event
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 from PySide6.QtCore import QObject
 
 from p2sf.messages import Message
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.compute.reference import Accuracy, measure
 from p2sf_explorer.state.state import State
 from p2sf_explorer.state.what_if import NO_REFERENCE
 from p2sf_explorer.state.workspaces import on_show
 from p2sf_explorer.store.worker import LatestWins
+
+if TYPE_CHECKING:
+    from p2sf_explorer.compute.reference import Accuracy
 
 
 class ShowBadge(Protocol):
@@ -25,7 +29,7 @@ class ShowBadge(Protocol):
 class AccuracyDisplay(Protocol):
     """A panel that shows the accuracy."""
 
-    def show_accuracy(self, accuracy: Accuracy, stale: bool, /) -> None:
+    def show_accuracy(self, accuracy: "Accuracy", stale: bool, /) -> None:
         """Show a measured accuracy; ``stale`` where it belongs to an earlier picture."""
 
     def show_failure(self, why: Message, /) -> None:
@@ -74,7 +78,7 @@ class LiveAccuracy(QObject):
         if self._last and fits(self._last, live, every_method):
             self._tell(self._last)
             return
-        self.worker.submit(live, lambda cancelled, progress: measure(live, every_method, cancelled, progress))
+        self.worker.submit(live, partial(_measured, live, every_method))
 
     def _refuse_altered(self, live: Live) -> None:
         """Show no figure: the reference is the lens's, and this picture is not."""
@@ -83,11 +87,11 @@ class LiveAccuracy(QObject):
         if display := self._display_on_show():
             display.show_failure(Message(NO_REFERENCE))
 
-    def _on_finished(self, key: Live, accuracy: Accuracy) -> None:
+    def _on_finished(self, key: Live, accuracy: "Accuracy") -> None:
         self._last = accuracy
         self._tell(accuracy)
 
-    def _tell(self, accuracy: Accuracy) -> None:
+    def _tell(self, accuracy: "Accuracy") -> None:
         live = self._live
         if live is None or live.setup.altered:
             return
@@ -118,7 +122,14 @@ def asked_for(state: State) -> bool:
     return "accuracy" in on_show(state.display)
 
 
-def fits(known: Accuracy, live: Live, every_method: bool) -> bool:
+def _measured(live: Live, every_method: bool, cancelled: Event, progress: Callable[[float], None]) -> "Accuracy":
+    """Measure an answer in the background, where what measures is loaded too."""
+    from p2sf_explorer.compute.reference import measure
+
+    return measure(live, every_method, cancelled, progress)
+
+
+def fits(known: "Accuracy", live: Live, every_method: bool) -> bool:
     """Return whether a known figure answers for this picture: it may differ in looks but neither in light nor window.
 
     Two fits of one method differ in their ``numbers``, which the tolerance decides.

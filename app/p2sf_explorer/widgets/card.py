@@ -46,7 +46,6 @@ from p2sf_explorer.charts.overlay import Overlay
 from p2sf_explorer.i18n.tr import local, tr, unbroken
 from p2sf_explorer.state.state import State, entry
 from p2sf_explorer.store.store import Store
-from p2sf_explorer.widgets.copying import copy_menu
 
 LIST_AIR = 24  # pixels beside the longest line of an open list
 PANEL_MIME = "application/x-p2sf-panel"  # of a panel's key while its title is dragged
@@ -236,6 +235,8 @@ class Card(QFrame):
 
     def contextMenuEvent(self, event: QContextMenuEvent) -> None:
         """Offer the panel's picture, its data, and its places."""
+        from p2sf_explorer.widgets.copying import copy_menu
+
         menu = copy_menu(self)
         if chart := chart_at(self, event.pos()):
             chart.hand.fill(menu, chart.mapFrom(self, event.pos()))

@@ -15,11 +15,8 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QWidget
 
-from p2sf.io.photo_files import READABLE
-from p2sf.measure.reading import ENDINGS
 from p2sf.messages import Message
 from p2sf_explorer.compute.lens_files import is_file
-from p2sf_explorer.files.embedded_state import text_inside
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.link import is_link
 
@@ -74,7 +71,6 @@ class PhotoDrop(QObject):
 
     photo = Signal(str)
     refused = Signal(object)
-    endings: tuple[str, ...] = READABLE
     why = "{file} is not a PNG, TIFF, OpenEXR, JPEG or HEIF; save the photo as one of these and drop that"
 
     def __init__(self, widget: QWidget):
@@ -82,6 +78,13 @@ class PhotoDrop(QObject):
         widget.setAcceptDrops(True)
         widget.installEventFilter(self)
         self.frame = DropFrame(widget)
+
+    @property
+    def endings(self) -> tuple[str, ...]:
+        """Return those of files that are taken."""
+        from p2sf.io.photo_files import READABLE
+
+        return READABLE
 
     def eventFilter(self, _widget: QObject, event: QEvent) -> bool:
         """Take pictures."""
@@ -111,16 +114,25 @@ class PhotoDrop(QObject):
 class MeasuredDrop(PhotoDrop):
     """The same for pictures to be measured, which have more formats."""
 
-    endings = ENDINGS
     why = "{file} is not a PNG, TIFF, FITS, npy, npz or listing; save the picture as one of these and drop that"
+
+    @property
+    def endings(self) -> tuple[str, ...]:
+        """Return those of files that are taken."""
+        from p2sf.measure.reading import ENDINGS
+
+        return ENDINGS
 
 
 def is_photo(path: str) -> bool:
     """Return whether a file has the ending of a picture and, unlike a snapshot, no state in it."""
+    from p2sf.io.photo_files import READABLE
+    from p2sf_explorer.files.embedded_state import text_inside
+
     return Path(path).suffix.lower() in (*READABLE, *OTHER_PICTURES) and text_inside(path) is None
 
 
-def dropped_picture(data: QMimeData, endings: tuple[str, ...] = READABLE) -> str | None:
+def dropped_picture(data: QMimeData, endings: tuple[str, ...]) -> str | None:
     """Return the path of the first dropped file with the ending of a picture; None where there is none."""
     paths = (url.toLocalFile() for url in data.urls())
     return next((path for path in paths if Path(path).suffix.lower() in (*endings, *OTHER_PICTURES)), None)

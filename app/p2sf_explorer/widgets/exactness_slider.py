@@ -1,22 +1,14 @@
 """The slider of the top bar from fast to exact, by R², MTF, R80 or time, with what it costs and gives beside it."""
 
 from math import inf, isfinite, log
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QHideEvent, QPaintEvent
 from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
-from p2sf.metrics.bounds import mtf_error, r80_sensitivity
 from p2sf_explorer.charts.theme import SPACE, Tokens
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.compute.method_bounds import (
-    COARSEST,
-    EXACTEST,
-    PredictedCost,
-    costs,
-    within,
-)
-from p2sf_explorer.compute.trade import TradeCurve, curves, trade_of, typical_costs
 from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.state.scales import significant
 from p2sf_explorer.state.state import State
@@ -25,6 +17,10 @@ from p2sf_explorer.store.worker import LatestWins
 from p2sf_explorer.widgets.card import chooser, paint_chevron, select
 from p2sf_explorer.widgets.slider import STEPS, Slider
 from p2sf_explorer.widgets.trade_chart import TradeChart, TradeDot
+
+if TYPE_CHECKING:
+    from p2sf_explorer.compute.method_bounds import PredictedCost
+    from p2sf_explorer.compute.trade import TradeCurve
 
 TIP = "From fast to exact: how large an error auto may make, or how long a picture may take. Now: {asked}"
 MEASURES = {
@@ -129,6 +125,9 @@ class ExactnessPanel(QFrame):
 
     def open_at(self, place: QPoint) -> None:
         """Show the panel at a place of the screen and measure what each method costs here."""
+        from p2sf_explorer.compute.method_bounds import costs
+        from p2sf_explorer.compute.trade import curves, trade_of
+
         state = self._store.state
         self._costs = ()
         self._curves = curves(trade) if (trade := trade_of(state)) else ()
@@ -156,6 +155,8 @@ class ExactnessPanel(QFrame):
 
     def _place(self) -> None:
         """Put the handle where the state is."""
+        from p2sf_explorer.compute.method_bounds import COARSEST, EXACTEST
+
         if self._measure() == "time":
             milliseconds = 1e3 * self._live.psf.seconds if self._live else SLOWEST_MS
             travel = log(max(milliseconds, QUICKEST_MS) / QUICKEST_MS) / log(SLOWEST_MS / QUICKEST_MS)
@@ -170,17 +171,23 @@ class ExactnessPanel(QFrame):
 
     def one_less_r2(self) -> float:
         """Return the 1 − R² that the slider allows, a round number."""
+        from p2sf_explorer.compute.method_bounds import COARSEST, EXACTEST
+
         return round_to_series(COARSEST * (EXACTEST / COARSEST) ** (self.slider.value() / STEPS))
 
     def milliseconds(self) -> float:
         """Return the time that the slider allows, a round number."""
         return round_to_series(QUICKEST_MS * (SLOWEST_MS / QUICKEST_MS) ** (self.slider.value() / STEPS))
 
-    def choice(self) -> PredictedCost | None:
+    def choice(self) -> "PredictedCost | None":
         """Return the method that would be taken, None while costs are unknown.
 
         Until they are measured at this point they are those of the lens in the complete trade.
         """
+        from p2sf.metrics.bounds import mtf_error
+        from p2sf_explorer.compute.method_bounds import within
+        from p2sf_explorer.compute.trade import typical_costs
+
         known = self._costs or typical_costs(self._curves)
         if not known:
             return None
@@ -213,7 +220,7 @@ class ExactnessPanel(QFrame):
         else:
             self.costing.setText(tr("{method} here: longer than a frame", method=choice.method))
 
-    def _tell_typical(self, choice: PredictedCost | None) -> None:
+    def _tell_typical(self, choice: "PredictedCost | None") -> None:
         """Show the curves of the complete trade in the slider's measure, and the figures of the method in question."""
         self.chart.setVisible(bool(self._curves))
         self.typical.setVisible(bool(self._curves))
@@ -230,6 +237,8 @@ class ExactnessPanel(QFrame):
             self.typical.setText(tr(words, method=same[0].family, **known))
 
     def _values(self) -> dict[str, str]:
+        from p2sf.metrics.bounds import mtf_error, r80_sensitivity
+
         error = self.one_less_r2()
         measure = self._measure()
         if measure == "time":
@@ -248,7 +257,7 @@ class ExactnessPanel(QFrame):
         known = {"ms": significant(1e3 * psf.seconds, 2), "error": prediction_text(psf.predicted_error)}
         self.given.setText(tr("on screen: {method}, {ms} ms, {error}", method=psf.method, **known))
 
-    def _on_costs(self, state: State, found: tuple[PredictedCost, ...]) -> None:
+    def _on_costs(self, state: State, found: "tuple[PredictedCost, ...]") -> None:
         self._costs = found
         self._tell()
 
@@ -280,7 +289,7 @@ TRADED = {
 }
 
 
-def dot_of(curve: TradeCurve, measure: str) -> TradeDot:
+def dot_of(curve: "TradeCurve", measure: str) -> TradeDot:
     """Return a method of the complete trade as a dot of the chart."""
     errors, first = curve.errors(measure), curve.family not in ("fitted 46", "fitted adaptive")
     name = curve.family if first else ""

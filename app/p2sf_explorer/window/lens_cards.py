@@ -11,7 +11,6 @@ from p2sf.lens.meridians import meridians
 from p2sf.lens.source import Source
 from p2sf.paraxial.first_order import cardinal_points
 from p2sf.paraxial.pupils import f_number, find_stop
-from p2sf.raytrace.zernike_fit import zernike_fit
 from p2sf_explorer.compute.layout import Drawing, drawing
 from p2sf_explorer.compute.lens_files import stamp
 from p2sf_explorer.compute.setup import default_state, load, prescription, title
@@ -74,6 +73,8 @@ def shows_coma(lens: Lens) -> bool:
 
     Defocus does not count.
     """
+    from p2sf.raytrace.zernike_fit import zernike_fit
+
     depth, wave = default_state(lens.name).optics.depth_mm, lens.reference_wavelength_um
     for part in FIELD_PARTS:
         source = Source(depth, float(slope_from_degrees(part * lens.widest_field_deg)), wave)

@@ -3,7 +3,6 @@
 from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QWidget
 
-from p2sf_explorer.charts.linked import link, part, share_scales
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.panels import BackgroundPanel, Panel, build
 from p2sf_explorer.state.panels import PANELS
@@ -27,6 +26,8 @@ class SecondSide(QObject):
 
     def follow(self, key: str, first: Panel | None) -> Panel | None:
         """Return the panel of B beside the ``first`` one, which is of A; None for none."""
+        from p2sf_explorer.charts.linked import link
+
         card = first.widget if first else None
         if card is not self._first:
             self.stop()
@@ -40,6 +41,8 @@ class SecondSide(QObject):
 
     def share_scales(self) -> None:
         """Give the plots of both panels one scale."""
+        from p2sf_explorer.charts.linked import share_scales
+
         if self.panel and self._first:
             share_scales(self._first, self.panel.widget)
 
@@ -52,6 +55,8 @@ class SecondSide(QObject):
 
     def stop(self) -> None:
         """Take the panel away, with its background work."""
+        from p2sf_explorer.charts.linked import part
+
         gone, first, self.panel, self._first, self._theme = self.panel, self._first, None, None, None
         if gone is None or first is None:
             return

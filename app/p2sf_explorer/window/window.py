@@ -4,7 +4,7 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from time import perf_counter
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from PySide6.QtCore import QSize, Qt, QTimer
 from PySide6.QtGui import (
@@ -27,11 +27,8 @@ from p2sf_explorer.compare.comparison import Answers, answers
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.caption import caption
 from p2sf_explorer.compute.live import Live, Refused
-from p2sf_explorer.compute.views.tolerances import ToleranceQuestion, ToleranceResult
 from p2sf_explorer.course.course import Course
-from p2sf_explorer.course.lectures import find_lectures
 from p2sf_explorer.files.file_watcher import FileWatcher
-from p2sf_explorer.files.opening import REPORT_TAB, Refusal
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.lessons.controller import LessonController, LessonRoom
 from p2sf_explorer.lessons.hall import Hall
@@ -50,7 +47,6 @@ from p2sf_explorer.store.live_accuracy import AccuracyDisplay, LiveAccuracy, ask
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.store.worker import LatestWins
 from p2sf_explorer.widgets.caption import Caption
-from p2sf_explorer.widgets.copying import card_in_hand
 from p2sf_explorer.widgets.drop import DropFrame, dropped_path, is_photo
 from p2sf_explorer.widgets.roles import install_roles
 from p2sf_explorer.window.bars import Banner, StatusLine, TopBar
@@ -64,10 +60,15 @@ from p2sf_explorer.window.no_answer import NO_ANSWER, draw_setup
 from p2sf_explorer.window.presentation import LARGER, LARGER_BESIDE, Presentation
 from p2sf_explorer.window.second_side import SecondSide
 from p2sf_explorer.window.stage import PanelRoom, ShareSplitter
-from p2sf_explorer.window.start_screen import Beginnings, StartScreen
 from p2sf_explorer.window.tabs import Tabs
 from p2sf_explorer.window.view import View, next_stop
 from p2sf_explorer.window.workspace_bar import WorkspaceBar, Workspaces
+
+if TYPE_CHECKING:
+    from p2sf_explorer.compute.views.tolerances import ToleranceQuestion, ToleranceResult
+    from p2sf_explorer.files.opening import Refusal
+    from p2sf_explorer.lessons.lesson import Lesson
+    from p2sf_explorer.window.start_screen import StartScreen
 
 T = TypeVar("T")
 
@@ -127,7 +128,7 @@ class MainWindow(QMainWindow):
         self.drop_frame = DropFrame(self)
         self.file_watcher = FileWatcher(self.store, self._read_again, self)
         self.lesson_room = LessonRoom(self.left_parts, self.controls)
-        self.teaching = LessonController(self.store, self, self.lesson_room, lambda: self._theme, find_lectures)
+        self.teaching = LessonController(self.store, self, self.lesson_room, lambda: self._theme, _lectures)
         self.hall = Hall(self.teaching, self.room.stage, self)
         self.course = Course(self.store, self.teaching, lambda: self._theme, self)
         access = PanelAccess(
@@ -202,8 +203,10 @@ class MainWindow(QMainWindow):
         self.setCentralWidget(body)
         self.resize(*FIRST_SIZE)
 
-    def show_start(self) -> StartScreen:
+    def show_start(self) -> "StartScreen":
         """Show the ways to begin."""
+        from p2sf_explorer.window.start_screen import Beginnings, StartScreen
+
         ways = Beginnings(
             look=self.top.lens.open_gallery,
             course=self.course.open_list,
@@ -343,6 +346,8 @@ class MainWindow(QMainWindow):
 
     def _detach(self) -> None:
         """Give the panel in hand a window of its own, or take it back."""
+        from p2sf_explorer.widgets.copying import card_in_hand
+
         card = card_in_hand(self, self.panels[self.display.stage].widget)
         self.floating.toggle(next(key for key, panel in self.panels.items() if panel.widget is card))
 
@@ -379,15 +384,16 @@ class MainWindow(QMainWindow):
             self.open_panel(key)
         return parts.get(key) or self.panels[key].widget
 
-    def _builds(self) -> tuple[ToleranceQuestion, ToleranceResult]:
+    def _builds(self) -> "tuple[ToleranceQuestion, ToleranceResult]":
         """Return the builds that the Tolerances panel has drawn, and bring it on show; P2SFError where it has none."""
         from p2sf_explorer.panels.tolerances.panel import TolerancesPanel
 
         self.open_panel("tolerances")
         return self._panel("tolerances", TolerancesPanel).drawn()
 
-    def _explain(self, refused: Refusal) -> None:
+    def _explain(self, refused: "Refusal") -> None:
         """Say why a file is not opened, in the import report and in the banner, which offers substitute glasses."""
+        from p2sf_explorer.files.opening import REPORT_TAB
         from p2sf_explorer.panels.import_report import ImportReportPanel
 
         self.open_panel(REPORT_TAB)
@@ -582,6 +588,13 @@ class MainWindow(QMainWindow):
             self.sharing.open(found)
         else:
             self.commands.open_path(found)
+
+
+def _lectures(language: str) -> "tuple[dict[str, Lesson], tuple[P2SFError, ...]]":
+    """Return the lectures in a language, and the errors of files that are none."""
+    from p2sf_explorer.course.lectures import find_lectures
+
+    return find_lectures(language)
 
 
 def paint(panel: Panel, key: str, live: Live) -> None:

@@ -87,7 +87,7 @@ def test_a_fault_is_found_and_named(old, new, count):
 
 @pytest.fixture
 def maker(window, teaching, tmp_path, monkeypatch):
-    monkeypatch.setattr("p2sf_explorer.lessons.controller.own_folder", lambda: tmp_path)
+    monkeypatch.setattr("p2sf_explorer.lessons.lesson.own_folder", lambda: tmp_path)
     window.store.replace(START)
     teaching.make()
     yield teaching.maker

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QFileDialog, QInputDialog
 from p2sf_explorer.course.lectures import AFTER, BEFORE, course_version
 from p2sf_explorer.course.results_window import FIRST
 from p2sf_explorer.i18n.language import set_language
-from p2sf_explorer.lessons import task_desk
+from p2sf_explorer.lessons import task_record
 from p2sf_explorer.lessons.answer_fields import OptionLabel
 from p2sf_explorer.lessons.controller import progress_path
 from p2sf_explorer.lessons.task_record import CourseResult, TaskRecord, read_result, write_result
@@ -185,7 +185,7 @@ def test_answers_that_are_written_at_the_same_time_of_a_file_are_all_kept(teachi
         write_result(path, result)
         os.utime(path, (1e9, 1e9))
 
-    monkeypatch.setattr(task_desk, "write_result", write)
+    monkeypatch.setattr(task_record, "write_result", write)
     for task in ("radius", "choice", "order"):
         at(task)
         teaching.panel.task.hint.click()

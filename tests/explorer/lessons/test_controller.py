@@ -167,7 +167,7 @@ def test_a_state_that_names_an_unknown_lesson_opens_without_one(window, teaching
 
 def test_a_bad_lesson_is_one_sentence_in_the_banner_and_the_others_stay(window, qtbot, monkeypatch, tmp_path):
     (tmp_path / "99_bad.md").write_text("no lesson", encoding="utf-8")
-    monkeypatch.setattr("p2sf_explorer.lessons.controller.own_folder", lambda: tmp_path)
+    monkeypatch.setattr("p2sf_explorer.lessons.lesson.own_folder", lambda: tmp_path)
     made = LessonController(window.store, window, window.lesson_room, lambda: LIGHT)
     assert len(made.lessons()) == len(shipped_lessons())
     qtbot.waitUntil(lambda: "99_bad.md, line 1" in window.banner.text.text())

@@ -117,7 +117,7 @@ def test_the_steps_of_undo_are_those_of_the_last_lens_without_repetitions():
 
 @pytest.fixture
 def teaching(window, tmp_path, monkeypatch):
-    monkeypatch.setattr("p2sf_explorer.lessons.controller.own_folder", lambda: tmp_path)
+    monkeypatch.setattr("p2sf_explorer.lessons.lesson.own_folder", lambda: tmp_path)
     yield window.teaching
     if window.teaching.maker:
         window.teaching.maker.deleteLater()

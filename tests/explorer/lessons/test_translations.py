@@ -9,7 +9,6 @@ from p2sf.errors import P2SFError
 from p2sf_explorer.charts.theme import LIGHT
 from p2sf_explorer.i18n.language import set_language, texts
 from p2sf_explorer.i18n.messages import said
-from p2sf_explorer.lessons import controller as teaching
 from p2sf_explorer.lessons.controller import UNTRANSLATED, LessonController
 from p2sf_explorer.lessons.lesson import FOLDER, found_lessons, lesson_files, read_lesson, with_words
 from p2sf_explorer.lessons.lesson_panel import LessonPanel, StepFrame
@@ -92,7 +91,7 @@ def test_bad_words_are_one_sentence_and_the_lesson_is_told_as_it_was_written(tmp
 def teaching_german(window, monkeypatch, tmp_path):
     """Yield what teaches in German, in place of the window's own, and a person's own lesson, which is in English."""
     (tmp_path / "99_own.md").write_bytes((FOLDER / "03_defocus.md").read_bytes())
-    monkeypatch.setattr(teaching, "own_folder", lambda: tmp_path)
+    monkeypatch.setattr("p2sf_explorer.lessons.lesson.own_folder", lambda: tmp_path)
     window.store.changed.disconnect(window.teaching.follow)
     set_language("de")
     made = LessonController(window.store, window, window.lesson_room, lambda: LIGHT)

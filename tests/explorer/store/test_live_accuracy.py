@@ -5,7 +5,6 @@ from threading import Event
 import pytest
 from PySide6.QtCore import QSizeF
 
-from p2sf_explorer.charts.theme import configure_plots
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.reference import Accuracy, measure
 from p2sf_explorer.lessons.measures import MEASURES
@@ -19,7 +18,6 @@ from tests.support.windows.windows import at_rest
 
 @pytest.fixture
 def measured(qapp, qtbot):
-    configure_plots()
     made = MainWindow(new_state(method="seidel", theme="light", field_deg=0.0, f_number=8.0, tab="accuracy"))
     made.show()
     yield made

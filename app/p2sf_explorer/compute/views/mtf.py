@@ -7,7 +7,7 @@ import numpy as np
 
 from p2sf.messages import Message
 from p2sf.metrics.measures import mtf_of
-from p2sf.metrics.transfer import never
+from p2sf.threads import never
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.measured import MeasureRequest, measure_request, measured_parts, mtf_is_live
 

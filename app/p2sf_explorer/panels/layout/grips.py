@@ -11,13 +11,11 @@ import numpy as np
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.lens.lens import Lens, Surface
-from p2sf.paraxial.bending import bend, element_of, elements, shape_factor
 from p2sf_explorer.compute.editing import edited_state, radius_through, stop_gap, with_stop_shift, with_surface
 from p2sf_explorer.compute.glass_outlines import GlassOutline, Section, clear_rims, sag, still, vertices
 from p2sf_explorer.compute.layout import Layout, nearly_straight
 from p2sf_explorer.compute.setup import ParaxialSetup, prescription, ranges
 from p2sf_explorer.state.build_errors import amount_of, with_error
-from p2sf_explorer.state.built import exaggerate
 from p2sf_explorer.state.pinning import with_links
 from p2sf_explorer.state.state import State, change
 
@@ -176,6 +174,8 @@ def _vertex(grip: Grip, start: State, z: float, y: float) -> State:
 
 def _glass(grip: Grip, start: State, z: float, y: float) -> State:
     """Bend the selected element, its front's edge following the hand; move a group of several along the axis."""
+    from p2sf.paraxial.bending import bend, elements
+
     lens, (first, last) = prescription(start), grip.surfaces
     if (first, last) in elements(lens):
         return edited_state(start, bend(lens, first, last, _curvature_by(lens, first, z - grip.z)))
@@ -184,6 +184,8 @@ def _glass(grip: Grip, start: State, z: float, y: float) -> State:
 
 def _decentre(grip: Grip, start: State, z: float, y: float) -> State:
     """Move a piece across the axis; where the drawing enlarges decentres, the hand's way is the enlarged one."""
+    from p2sf_explorer.state.built import exaggerate
+
     errors = start.optics.errors
     _, factor = exaggerate(errors, start.display.exaggerated)
     amount = amount_of(errors, "decentre_y", grip.surfaces) + (y - grip.y) / factor
@@ -223,9 +225,13 @@ MOVES = {
 
 def can_bend(lens: Lens, selected: Span) -> bool:
     """Return whether what is selected is one element with air on both sides."""
+    from p2sf.paraxial.bending import element_of
+
     return element_of(lens, selected[0]) == selected
 
 
 def shape_of(lens: Lens, selected: Span) -> float:
     """Return the shape factor of an element."""
+    from p2sf.paraxial.bending import shape_factor
+
     return shape_factor(lens, *selected)

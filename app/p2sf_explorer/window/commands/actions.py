@@ -14,35 +14,23 @@ from p2sf.errors import P2SFError
 from p2sf.lens.lens import with_absorption
 from p2sf.messages import Message
 from p2sf_explorer.charts.theme import Tokens
-from p2sf_explorer.compare.compare_bar import CompareBar
-from p2sf_explorer.compute.autofocus import best_shift_um
 from p2sf_explorer.compute.editing import edited_state
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import prescription, with_lens
-from p2sf_explorer.files.asking import ask_path
-from p2sf_explorer.files.opening import KINDS, Refusal, open_file, refusal
 from p2sf_explorer.files.recent import recent_files, remember
-from p2sf_explorer.files.saving import ask_save_lens
-from p2sf_explorer.files.snapshot import DATA_ENDINGS, saved, write_data, write_picture, write_state
-from p2sf_explorer.handbook.pages import PAGES
-from p2sf_explorer.handbook.viewer import Handbook
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.lessons.lesson_panel import LessonPanel
-from p2sf_explorer.playback.play_bar import PlayBar
 from p2sf_explorer.state.limits import CLEAR_PUPIL, MASK
 from p2sf_explorer.state.panels import REGISTRY
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.command import Command
-from p2sf_explorer.widgets.copying import card_in_hand, copy_data, copy_picture, png_of
 from p2sf_explorer.window.bars import TopBar
 from p2sf_explorer.window.commands.choices import choices, fill
-from p2sf_explorer.window.commands.command_palette import Palette
-from p2sf_explorer.window.commands.help import HelpPage, help_text
-from p2sf_explorer.window.controls import Controls
-from p2sf_explorer.window.quantity_rows import PupilShape
 
 if TYPE_CHECKING:
+    from p2sf_explorer.files.opening import Refusal
+    from p2sf_explorer.handbook.viewer import Handbook
+    from p2sf_explorer.window.commands.command_palette import Palette
     from p2sf_explorer.window.commands.report import ReportWriter
     from p2sf_explorer.window.commands.set_dialog import SetDialog
 
@@ -61,14 +49,14 @@ SNAPSHOT_FILES = (
 )
 
 
-# The sections of the handbook's page on the window that tell of its parts.
-PARTS: dict[type, str] = {
-    TopBar: "Top bar",
-    PupilShape: "Pupil shape",
-    Controls: "Controls",
-    CompareBar: "A beside B",
-    PlayBar: "Play and film",
-    LessonPanel: "Lessons",
+# The sections of the handbook's page on the window that tell of its parts, by the names of their classes.
+PARTS = {
+    "TopBar": "Top bar",
+    "PupilShape": "Pupil shape",
+    "Controls": "Controls",
+    "CompareBar": "A beside B",
+    "PlayBar": "Play and film",
+    "LessonPanel": "Lessons",
 }
 
 
@@ -87,17 +75,19 @@ class PanelAccess:
     stage: Callable[[str], None]
     card: Callable[[str], Card]
     in_front: Callable[[], Card]
-    explain: Callable[[Refusal], None]
+    explain: "Callable[[Refusal], None]"
     detach: Callable[[], None]
 
 
 def handbook_place(widget: QWidget | None) -> tuple[str, str]:
     """Return page and heading of the handbook that tell of a widget: those of the nearest part around it."""
+    from p2sf_explorer.handbook.pages import PAGES
+
     titles = {entry.key: entry.title for entry in REGISTRY}
     while widget is not None:
         if isinstance(widget, Card) and widget.key in titles:
             return "panels", titles[widget.key]
-        if heading := PARTS.get(type(widget)):
+        if heading := PARTS.get(type(widget).__name__):
             return "window", heading
         widget = widget.parentWidget()
     return next(iter(PAGES)), ""
@@ -175,6 +165,8 @@ class Actions(QObject):
 
     def open_path(self, path: str) -> bool:
         """Open a lens file of any known format or a saved state; its content decides."""
+        from p2sf_explorer.files.opening import open_file, refusal
+
         try:
             self._store.replace(open_file(self._store.state, path))
         except P2SFError as error:
@@ -193,6 +185,8 @@ class Actions(QObject):
 
     def autofocus(self) -> bool:
         """Move the sensor to the smallest RMS wavefront."""
+        from p2sf_explorer.compute.autofocus import best_shift_um
+
         return self.attempt(lambda: self._store.update(sensor_shift_um=best_shift_um(self._store.state)))
 
     def absorb(self) -> bool:
@@ -204,6 +198,9 @@ class Actions(QObject):
 
     def save(self, path: str, picture_of: QWidget | None = None) -> bool:
         """Write a snapshot by the ending of its name, with its state in it."""
+        from p2sf_explorer.files.snapshot import DATA_ENDINGS, saved, write_data, write_picture, write_state
+        from p2sf_explorer.widgets.copying import png_of
+
         ending, state, done = Path(path).suffix.lower(), self._store.state, saved(path)
         if ending in DATA_ENDINGS:
             went = self.attempt(lambda: write_data(self._panels.live(), path, state))
@@ -217,16 +214,22 @@ class Actions(QObject):
 
     def ask_open(self) -> None:
         """Ask for a file and open it."""
+        from p2sf_explorer.files.opening import KINDS
+
         path, _ = QFileDialog.getOpenFileName(self._window, tr("Open a lens or a state"), "", tr(KINDS))
         if path:
             self.open_path(path)
 
     def ask_save_lens(self) -> None:
         """Ask for a name and save the lens as it is now."""
+        from p2sf_explorer.files.saving import ask_save_lens
+
         ask_save_lens(self._window, self._store)
 
     def ask_snapshot(self, kinds: str = SNAPSHOT_FILES, picture_of: QWidget | None = None) -> None:
         """Ask for a name and save the snapshot."""
+        from p2sf_explorer.files.asking import ask_path
+
         ending = kinds.split("*")[1].split(")")[0]
         first = f"{Path(self._store.state.optics.lens).stem}{ending}"
         if path := ask_path(self._window, tr("Save a snapshot"), first, tr(kinds)):
@@ -249,6 +252,8 @@ class Actions(QObject):
 
     def help(self) -> None:
         """Show shortcuts and what they do."""
+        from p2sf_explorer.window.commands.help import HelpPage, help_text
+
         page = self._window.findChild(HelpPage) or HelpPage(help_text(tuple(self.commands)), self._window)
         page.show()
         page.raise_()
@@ -262,8 +267,10 @@ class Actions(QObject):
         """Open the handbook at what has the focus: a panel, or another part of the window; else at its first page."""
         self._book().show_heading(*handbook_place(QApplication.focusWidget()))
 
-    def _book(self) -> Handbook:
+    def _book(self) -> "Handbook":
         """Return the handbook in the window's colours."""
+        from p2sf_explorer.handbook.viewer import Handbook
+
         theme = self._panels.theme()
         self.handbook = self.handbook or Handbook(theme, self._window)
         self.handbook.restyle(theme)
@@ -271,6 +278,8 @@ class Actions(QObject):
 
     def find(self) -> None:
         """Open the command palette."""
+        from p2sf_explorer.window.commands.command_palette import Palette
+
         self.palette = self.palette or Palette(self._window)
         self.palette.open_with(self.everything())
 
@@ -281,16 +290,22 @@ class Actions(QObject):
 
     def copy_picture(self) -> None:
         """Put the picture of the panel in hand on the clipboard."""
+        from p2sf_explorer.widgets.copying import card_in_hand, copy_picture
+
         copy_picture(card_in_hand(self._window, self._panels.in_front()))
         self._store.said.emit(Message("The panel's picture is on the clipboard"))
 
     def copy_data(self) -> None:
         """Put the data of the panel in hand on the clipboard."""
+        from p2sf_explorer.widgets.copying import card_in_hand, copy_data
+
         copied = copy_data(card_in_hand(self._window, self._panels.in_front()))
         self._store.said.emit(COPIED if copied else NO_DATA)
 
     def ask_report(self) -> None:
         """Ask for a name and write the report."""
+        from p2sf_explorer.files.asking import ask_path
+
         first = f"{Path(self._store.state.optics.lens).stem}.pdf"
         if path := ask_path(self._window, tr("Save the report"), first, tr(REPORT_FILES)):
             self.write_report(path)
