@@ -126,12 +126,14 @@ window = MainWindow(measured=False)
 window.show()
 application.processEvents()
 window.grab()
+window.close()
+application.processEvents()
 """
 # Whole subjects, and libraries that take a tenth of a second or more, by what does not need them.
 NOT_NEEDED = {
     "import p2sf": ("numpy", "scipy", "p2sf.lens", "p2sf.setting"),
     "from p2sf.cli import main; main(['info', 'double_gauss_28'])": (
-        *("scipy", "finufft", "p2sf.psf", "p2sf.metrics", "p2sf.pixel_kernels", "p2sf.scene", "p2sf.image"),
+        *("scipy", "finufft", "p2sf.psf", "p2sf.metrics", "p2sf.pixel_kernels", "p2sf.scene", "p2sf.image.form"),
         *("p2sf.database", "p2sf.tolerance", "p2sf.measure", "p2sf.studies", "p2sf.export", "p2sf_explorer"),
     ),
     FIRST_PICTURE: (
