@@ -83,6 +83,25 @@ def test_no_circle_between_files():
     assert circles(towards) == sorted(FOR_TYPES_ALONE, key=sorted)
 
 
+def test_what_lies_behind_lazy_imports_and_the_face_is_found(tmp_path):
+    """A circle of a and b by a name of the package itself, and one of c and d for types alone."""
+    files = {
+        "__init__": "if TYPE_CHECKING:\n    from p2sf.b import high",
+        "a": "def low():\n    try:\n        from p2sf import high\n    except ImportError:\n        pass",
+        "b": "from p2sf.a import low",
+        "c": "if TYPE_CHECKING:\n    from p2sf.d import Held",
+        "d": "from p2sf.c import Holder",
+    }
+    (tmp_path / "p2sf").mkdir()
+    for name, text in files.items():
+        (tmp_path / "p2sf" / f"{name}.py").write_text(text)
+    of_values, of_types = ({f"p2sf.{name}" for name in pair} for pair in ("ab", "cd"))
+    assert circles(graph(tmp_path)) == [of_values]
+    assert circles(graph(tmp_path, with_types=True)) == [of_values, of_types]
+    [found] = upward_imports(tmp_path, {"p2sf.a": 1, "p2sf.b": 2})
+    assert (found.module, found.name, found.line) == ("p2sf.a", "p2sf.b.high", 3)
+
+
 def test_private_modules_stay_in_their_folder():
     foreign = []
     for one in imports(ROOT):

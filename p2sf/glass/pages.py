@@ -1,8 +1,8 @@
 """The pages of refractiveindex.info that the package ships: a formula with its coefficients, or a table, per material.
 
 One compressed text file contains them in decimal, as the database does, so that coefficients have double precision. It
-is read on the first look-up; a page is parsed when it is requested. `collect` creates the file. A second one has former
-and moulded glasses that the database lacks, from catalogues of their makers (`tests.long.collect_agf`).
+is read on the first look-up; a page is parsed when it is requested. A second one has former and moulded glasses
+that the database lacks, from catalogues of their makers. `tests.long.collect_pages` and `collect_agf` create them.
 """
 
 import gzip

@@ -10,7 +10,6 @@ import pytest
 
 from p2sf.errors import GlassError
 from p2sf.glass.catalogue import glasses_by_maker
-from p2sf.glass.collect import lines
 from p2sf.glass.dispersion import FORMULAS, LINES_UM, refractive_index, through_neighbours
 from p2sf.glass.media import (
     AIR,
@@ -23,6 +22,7 @@ from p2sf.glass.media import (
 from p2sf.glass.pages import DATA, LONGEST_TABLE, GlassPage, Kind, _lines, page, page_names
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.first_order import cardinal_points
+from tests.long.collect_pages import lines
 from tests.support.interpreter import loaded_by
 from tests.support.reference import LENSES, prescriptions, reference
 

@@ -12,10 +12,10 @@ from pathlib import Path
 
 import numpy as np
 
-from p2sf.glass.collect import page_fields
 from p2sf.glass.pages import CATALOGUES, DATA, MORE_DATA, SUPPLIERS, GlassPage, read_lines
 from p2sf.lensfile.agf import FormulaGlass, read_agf, refractive_index
 from p2sf.lensfile.glass_lookup import DAMAGED_ND, key, nd_of
+from tests.long.collect_pages import page_fields
 
 # Glasses whose page is a short table, or an edition before the maker's present one.
 REPLACED = {("SCHOTT", "B270"), ("SUMITA", "KGIR79")}

@@ -1,8 +1,8 @@
 """Create the file of dispersion data from a copy of the refractiveindex.info database.
 
-``python -m p2sf.glass.collect DATABASE RELEASE``, where DATABASE is the folder with ``catalog-nk.yml`` and ``data``
-(of the database's repository, or of the package ``refractiveindex``) and RELEASE its name, such as v2026-05-24. The
-database is in the public domain (CC0 1.0). Needs PyYAML.
+``python -m tests.long.collect_pages DATABASE RELEASE``, where DATABASE is the folder with ``catalog-nk.yml`` and
+``data`` (of the database's repository, or of the package ``refractiveindex``) and RELEASE its name, such as
+v2026-05-24. The database is in the public domain (CC0 1.0). Needs PyYAML.
 """
 
 import gzip
@@ -67,7 +67,7 @@ def _yaml(path: Path) -> Any:
 
 
 def main(database: str, release: str) -> None:
-    """Write the file beside this module; the same database gives the same bytes."""
+    """Write the file that the package ships; the same database gives the same bytes."""
     head = f"refractiveindex.info {release}, public domain (CC0 1.0)"
     text = "\n".join((head, *lines(Path(database)))) + "\n"
     DATA.write_bytes(gzip.compress(text.encode(), compresslevel=9, mtime=0))
