@@ -7,12 +7,14 @@ import numpy as np
 import pytest
 
 from p2sf.cli import main
+from p2sf.cli.measuring import _scale
 from p2sf.lens.lens import with_f_number
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml.lens import read_toml
-from p2sf.measure.frame import FrameGeometry
+from p2sf.measure.frame import Frame, FrameGeometry
 from p2sf.measure.measurement import read_measurement
 from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
+from p2sf.setting import Request
 
 SCALE = ("--pixel-um", "3.45", "--f-number", "4")
 
@@ -25,6 +27,13 @@ def picture(tmp_path_factory):
     lens = with_f_number(find_lens("cooke_triplet"), 4.0)
     np.save(path, simulated_frame(lens, places, FrameGeometry(300, 480, 3.45), Exposure(sensor_shift_um=20.0)).values)
     return path
+
+
+def test_an_f_number_and_a_wavelength_are_a_scale_without_a_lens():
+    """NA = 1/(2N) for a far point, and nanometres are a thousandth of a micrometre."""
+    frame = Frame(np.ones((4, 6)), FrameGeometry(4, 6, 3.45))
+    found = _scale(None, Request(f_number=4.0, wavelength_nm=550.0), frame)
+    assert (found.na, found.wavelength_um, found.pixel_um) == pytest.approx((0.125, 0.55, 3.45))
 
 
 @pytest.mark.slow
