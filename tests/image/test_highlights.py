@@ -82,6 +82,18 @@ def test_points_add_up_each_with_its_own_depth_and_halo():
     assert one[20, 40, 0] > 1e-6 * one.max()  # a small kernel ends at 9 pixels
 
 
+def test_the_halo_of_a_point_is_that_of_its_own_row_and_column():
+    """Exchanging both mirrors the picture on a sensor whose middle lies on the mirror, to what kernels round."""
+    sensor = Sensor(80, 80, 12.0, (6.0, -6.0))
+    planned = plan(find_lens("double_gauss_28"), Scene(sensor, (GREEN,), f_number=5.6, tail_error=0.1))
+    pictures = np.zeros((2, 80, 80, 1), np.float32)
+    pictures[0, 8, 70], pictures[1, 70, 8] = 1e4, 1e4
+    one, other = (form_image(planned, each, how=BLUR)[..., 0] for each in pictures)
+    halo = other.T[:20, 50:]
+    np.testing.assert_allclose(one[:20, 50:], halo, rtol=1e-2, atol=1e-7 * halo.max())
+    assert (halo > 1e-5 * halo.max()).sum() > 100
+
+
 def test_a_halo_is_that_of_a_larger_picture_where_a_node_of_depth_has_a_wider_blur():
     """Of 4 × 4 pixels, fewer than their kernels have, in the middle of 44 × 44; a tenth is asked of each."""
     lens, counts, pictures, plans = find_lens("double_gauss_28"), (4, 44), [], []
