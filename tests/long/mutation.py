@@ -55,55 +55,55 @@ EQUIVALENT: dict[tuple[str, str], str] = {
 """Of a file and a broken line, why nobody can tell it from the right one."""
 
 
-def drawn(seed: int, only: str = "") -> Iterator[Break]:
+def drawn(seed: int, only: str = "", root: Path = ROOT) -> Iterator[Break]:
     """Yield breaks at random, of every rule in turn."""
     found: dict[str, list[Break]] = {rule.__name__: [] for rule in RULES}
-    for path in sorted(path for subject in SUBJECTS for path in (ROOT / subject).rglob("*.py")):
-        file = path.relative_to(ROOT).as_posix()
+    for path in sorted(path for subject in SUBJECTS for path in (root / subject).rglob("*.py")):
+        file = path.relative_to(root).as_posix()
         for one in places(file, path.read_bytes()) if file.startswith(only) else ():
             found[one.rule].append(one)
     for row in zip_longest(*(sorted(of_rule, key=lambda one: one.rank(seed)) for of_rule in found.values())):
-        yield from (one for one in row if one and one.compiles((ROOT / one.file).read_bytes()))
+        yield from (one for one in row if one and one.compiles((root / one.file).read_bytes()))
 
 
 @lru_cache
-def imported() -> dict[str, frozenset[str]]:
+def imported(root: Path) -> dict[str, frozenset[str]]:
     """Return the modules, and names in them, that every file of tests imports."""
     found = {}
-    for path in sorted((ROOT / "tests").rglob("test_*.py")):
+    for path in sorted((root / "tests").rglob("test_*.py")):
         names = set()
         for node in ast.walk(ast.parse(path.read_bytes())):
             if isinstance(node, ast.ImportFrom) and node.module:
                 names |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
             elif isinstance(node, ast.Import):
                 names |= {alias.name for alias in node.names}
-        file = path.relative_to(ROOT).as_posix()
+        file = path.relative_to(root).as_posix()
         if not file.startswith((*NOT_RUN, "tests/benchmarks")):
             found[file] = frozenset(names)
     return found
 
 
-def folder_of(file: str) -> str:
+def folder_of(file: str, root: Path) -> str:
     """Return the folder of tests for a file of code: that of the same name, or the next above it."""
     own = Path("tests") / Path(file.replace("app/p2sf_explorer", "explorer").removeprefix("p2sf/")).parent
-    return next(folder.as_posix() for folder in (own, *own.parents) if (ROOT / folder).is_dir())
+    return next(folder.as_posix() for folder in (own, *own.parents) if (root / folder).is_dir())
 
 
-def tests_of(file: str, function: str = "") -> list[str]:
+def tests_of(file: str, function: str = "", root: Path = ROOT) -> list[str]:
     """Return the files of tests for a file of code, the closest first, of these those that name a function in it."""
     module = file.removeprefix("app/").removesuffix(".py").removesuffix("/__init__").replace("/", ".")
-    folder = folder_of(file)
+    folder = folder_of(file, root)
     beside = tuple(place for start, known in BESIDE.items() if file.startswith(f"{start}/") for place in known)
 
     def distance(test: str) -> int:
         in_folder = test.startswith("tests/test_" if folder == "tests" else f"{folder}/")
-        if test.endswith(f"/test_{Path(file).stem}.py") or module in imported()[test]:
+        if test.endswith(f"/test_{Path(file).stem}.py") or module in imported(root)[test]:
             return 0 if in_folder else 1
         return 2 if in_folder else 3 if test.startswith(beside) else 4
 
     named = re.compile(rf"\b{function}\b".encode())
-    near = {test: distance(test) for test in imported() if distance(test) < 4}
-    found = [(away, not named.search((ROOT / test).read_bytes()), test) for test, away in near.items()]
+    near = {test: distance(test) for test in imported(root) if distance(test) < 4}
+    found = [(away, not named.search((root / test).read_bytes()), test) for test, away in near.items()]
     return [test for *_, test in sorted(found)]
 
 
@@ -113,7 +113,7 @@ def outcome(one: Break, copy: Path, seconds: float) -> dict[str, str]:
     source, times = path.read_bytes(), path.stat()
     path.write_bytes(one.applied(source))
     try:
-        return run_tests(tests_of(one.file, one.inside), copy, seconds)
+        return run_tests(tests_of(one.file, one.inside, copy), copy, seconds)
     finally:
         path.write_bytes(source)
         os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))  # its compiled form is that of this time
@@ -160,19 +160,17 @@ def key(one: Break) -> str:
     return f"{one.file}\n{one.before}\n{one.after}"
 
 
-def tried(breaks: list[Break], keep: Path, again: bool, seconds: float) -> dict[str, dict[str, str]]:
-    """Return the outcome of every break by its key, those of the file without trying them again."""
+def tried(breaks: list[Break], keep: Path, again: bool, seconds: float, copy: Path) -> dict[str, dict[str, str]]:
+    """Return the outcome of every break of a copy by its key, those of the file without trying them again."""
     lines = keep.read_text(encoding="utf-8").splitlines() if keep.exists() else []
     known = {line["key"]: line for line in map(json.loads, lines)}
-    with tempfile.TemporaryDirectory() as folder:
-        copy = copied(folder)
-        for one in breaks:
-            at = key(one)
-            if at in known and not (again and known[at]["outcome"] != "noticed"):
-                continue
-            known[at] = {"key": at, "rule": one.rule, **outcome(one, copy, seconds)}
-            with keep.open("a", encoding="utf-8") as file:
-                file.write(json.dumps(known[at], ensure_ascii=False) + "\n")
+    for one in breaks:
+        at = key(one)
+        if at in known and not (again and known[at]["outcome"] != "noticed"):
+            continue
+        known[at] = {"key": at, "rule": one.rule, **outcome(one, copy, seconds)}
+        with keep.open("a", encoding="utf-8") as file:
+            file.write(json.dumps(known[at], ensure_ascii=False) + "\n")
     return known
 
 
@@ -204,8 +202,10 @@ def main() -> None:
     parser.add_argument("--seconds", type=float, default=SECONDS, help="of the processor for each break")
     parser.add_argument("--only", default="", help="draw in files whose path begins so")
     asked = parser.parse_args()
-    breaks = list(islice(drawn(asked.seed, asked.only), asked.breaks))
-    report(breaks, tried(breaks, asked.keep, asked.again, asked.seconds))
+    with tempfile.TemporaryDirectory() as folder:  # what is edited meanwhile does not matter
+        copy = copied(folder)
+        breaks = list(islice(drawn(asked.seed, asked.only, copy), asked.breaks))
+        report(breaks, tried(breaks, asked.keep, asked.again, asked.seconds, copy))
 
 
 if __name__ == "__main__":
