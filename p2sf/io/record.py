@@ -15,7 +15,7 @@ from p2sf.lens.lens import Lens
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import Stop, f_number
 from p2sf.psf.record import true_of_all
-from p2sf.psf.result import FIGURES, OWN, Figures, Psf
+from p2sf.psf.result import FIGURES, OWN, Psf, PsfFigures
 from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.raytrace.focusing import focused_vergence
 from p2sf.setting import Setup
@@ -129,7 +129,7 @@ def psf_from(values: np.ndarray, known: dict) -> Psf:
     read = {"sampling": Message(str(known.get("sampling", ""))), "peak_um": peak and tuple(peak)}
     known = {FORMER.get(name, name): value for name, value in known.items()}
     known |= read
-    figures = Figures(**{name: known[name] for name in FIGURES if name in known})
+    figures = PsfFigures(**{name: known[name] for name in FIGURES if name in known})
     return Psf(values, figures=figures, **{name: known[name] for name in OWN if name in known})
 
 

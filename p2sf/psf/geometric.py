@@ -18,7 +18,7 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients, coefficients
-from p2sf.psf.result import Figures, Psf
+from p2sf.psf.result import Psf, PsfFigures
 from p2sf.pupil.domain import HALF, WHOLE, PupilDomain
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.mask_nodes import throughput
@@ -83,7 +83,7 @@ def geometric_psf(
         directions=directions,
     )
     rays = 2 if six else TRACED[quality][0] * TRACED[quality][1]
-    made = "geometric", Figures(energy=energy), 0, rays, sampling, perf_counter() - begun
+    made = "geometric", PsfFigures(energy=energy), 0, rays, sampling, perf_counter() - begun
     return Psf(values, pixel_um, source.wavelength_um, *made, integrated=True)
 
 

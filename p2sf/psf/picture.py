@@ -7,7 +7,7 @@ import numpy as np
 
 from p2sf.conventions import centred_axis
 from p2sf.psf.peak import Peak, peak_of
-from p2sf.psf.result import Figures, Later, Psf
+from p2sf.psf.result import Later, Psf, PsfFigures
 from p2sf.psf.sums.plane_waves import Waves
 
 Window = tuple[int, float]
@@ -55,7 +55,7 @@ def psf_of_intensity(
         all_light = None if light is None else light()
         return None if all_light is None else total * pixel_um**2 / all_light
 
-    figures = Figures(
+    figures = PsfFigures(
         strehl=lambda: highest().value,
         peak_um=lambda: (highest().x_um, highest().y_um),
         rivals=lambda: highest().rivals,

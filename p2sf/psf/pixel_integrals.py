@@ -17,7 +17,7 @@ from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.psf.huygens import FRINGES_OF_SPHERES
 from p2sf.psf.methods import AUTO, REFERENCE, SPHERICAL, USUAL, PsfOptions, method_of, render, whole_pixel_um
-from p2sf.psf.result import Figure, Figures, Later, Psf
+from p2sf.psf.result import Figure, Later, Psf, PsfFigures
 from p2sf.psf.seidel import check_samples
 from p2sf.pupil.binning import bin_samples
 from p2sf.raytrace.exit_sphere import exit_sphere
@@ -134,7 +134,7 @@ def _light_on_pixels(render_at: Callable[[int, float], Psf], pixels: int, pixel_
     )
 
 
-def _part_of_light(figures: Figures, share: float | np.ndarray) -> Figure:
+def _part_of_light(figures: PsfFigures, share: float | np.ndarray) -> Figure:
     energy: Figure = figures.value("energy")
     return None if energy is None else energy * share
 

@@ -63,7 +63,7 @@ class Later(Generic[Value]):
 
 
 @dataclass(frozen=True, eq=False)
-class Figures:
+class PsfFigures:
     """What is read off the pupil of a PSF, and its provenance: values, or functions that are called when first read.
 
     During dragging few figures of a picture are shown, and some take as long as the picture. `Psf` describes them.
@@ -89,14 +89,14 @@ class Figures:
         return found() if callable(found) else found
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Figures, tuple(self.value(each.name) for each in fields(self))
+        return PsfFigures, tuple(self.value(each.name) for each in fields(self))
 
 
-UNKNOWN = Figures()
+UNKNOWN = PsfFigures()
 
 
 class Read(Generic[Value]):
-    """An attribute of `Psf` that is one of its `Figures`, of the same name."""
+    """An attribute of `Psf` that is one of its `PsfFigures`, of the same name."""
 
     def __set_name__(self, owner: type, name: str) -> None:
         self.name = name
@@ -178,7 +178,7 @@ class Psf:
     pixel_um: float
     wavelength_um: float | np.ndarray
     method: str
-    figures: Figures = UNKNOWN
+    figures: PsfFigures = UNKNOWN
     numbers: int = 0
     rays: int = 0
     sampling: Message = UNSTATED
@@ -199,7 +199,7 @@ class Psf:
     provenance = Read[Facts]()
 
     def with_figures(self, **figures: Any) -> "Psf":
-        """Return the same PSF with these of its `Figures` in place of its own; the others stay uncomputed."""
+        """Return the same PSF with these of its `PsfFigures` in place of its own; the others stay uncomputed."""
         return replace(self, figures=replace(self.figures, **figures))
 
     @property
@@ -386,7 +386,7 @@ class Psf:
 
 
 OWN = tuple(each.name for each in fields(Psf))
-FIGURES = tuple(each.name for each in fields(Figures))
+FIGURES = tuple(each.name for each in fields(PsfFigures))
 
 
 def facts(psf: Psf) -> dict[str, Any]:

@@ -14,7 +14,7 @@ from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import steepest_polar, steepest_slope, wavefront
 from p2sf.psf.fitted import MOST_FOR_PEAK, waves_reaching
 from p2sf.psf.peak import peak_of, sampled_peak
-from p2sf.psf.result import Figures, Later, Psf
+from p2sf.psf.result import Later, Psf, PsfFigures
 from p2sf.psf.seidel_stack import SummedStack, as_fit, corner_reach, each_of, stack_of
 from p2sf.psf.sums.plane_waves import Waves, counts_for, pupil_amplitude, window_reach_um
 from p2sf.psf.sums.seidel_sum import wave_number
@@ -143,7 +143,7 @@ def _result(
         return float(share) if single and share is not None else share
 
     peaks = Later(partial(_peaks, coefficients, stack, pixel_um, mask, quality))
-    figures = Figures(
+    figures = PsfFigures(
         strehl=lambda: float(peaks()[0]) if single else peaks()[0],
         peak_um=lambda: (float(peaks()[1][0]), float(peaks()[1][1])) if single else peaks()[1],
         rivals=lambda: int(peaks()[2]) if single else peaks()[2],

@@ -18,7 +18,7 @@ from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import pupils
 from p2sf.paraxial.seidel import coefficients
-from p2sf.psf.result import Figures, Psf
+from p2sf.psf.result import Psf, PsfFigures
 from p2sf.psf.seidel import fft_intensity as six_fft
 from p2sf.raytrace.pencil import Rays, displayed_opd, in_azimuth, on_sensor, pencil
 
@@ -170,7 +170,7 @@ def sampled_psf(name: str, sampling: int, lens: Lens, source: Source, window: Wi
         pixel_um=window[1],
         wavelength_um=source.wavelength_um,
         method=name,
-        figures=Figures(strehl=float(intensity.max())),
+        figures=PsfFigures(strehl=float(intensity.max())),
         numbers=6 if name == PAPER else 0,
         rays=0 if name == PAPER else sampling**2,
         sampling=Message("{count} × {count} points", count=sampling),

@@ -16,7 +16,7 @@ from p2sf.io.psf_files import read_psf, write_psf
 from p2sf.io.psf_plot import edges_um, round_length
 from p2sf.io.record import psf_from
 from p2sf.messages import Message
-from p2sf.psf.result import Figures, Psf, facts
+from p2sf.psf.result import Psf, PsfFigures, facts
 
 META = {"lens": {"name": "made_up"}, "setup": {"depth_mm": np.inf, "field_deg": 14.0}}
 
@@ -30,7 +30,7 @@ def blob(rows=24, columns=17) -> Psf:
         0.69125,
         0.6562725,
         "seidel",
-        Figures(strehl=0.37, energy=0.99, predicted_error=2.5e-3),
+        PsfFigures(strehl=0.37, energy=0.99, predicted_error=2.5e-3),
         numbers=6,
         sampling=Message("test"),
     )
@@ -123,7 +123,7 @@ def test_an_unknown_ending_lists_the_known_ones(tmp_path, name):
 
 
 def test_a_stack_is_not_one_psf(tmp_path):
-    stack = Psf(np.ones((2, 4, 4)) / 16, 1.0, 0.5, "seidel", Figures(strehl=np.ones(2)))
+    stack = Psf(np.ones((2, 4, 4)) / 16, 1.0, 0.5, "seidel", PsfFigures(strehl=np.ones(2)))
     with pytest.raises(ExportError, match=r"\(2, 4, 4\)"):
         write_psf(stack, tmp_path / "a.npz", META)
 
@@ -168,12 +168,12 @@ import matplotlib.font_manager  # it keeps a cache on disk, which is not to brea
 import numpy as np
 from p2sf.errors import ExportError
 from p2sf.io.psf_files import write_psf
-from p2sf.psf.result import Figures, Psf, facts
+from p2sf.psf.result import PsfFigures, Psf, facts
 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000))
 noise = np.random.default_rng(1).random((64, 64))
 try:
-    write_psf(Psf(noise, 1.0, 0.5, "seidel", Figures(strehl=1.0)), sys.argv[1], {})
+    write_psf(Psf(noise, 1.0, 0.5, "seidel", PsfFigures(strehl=1.0)), sys.argv[1], {})
 except ExportError as error:
     print(error)
 """

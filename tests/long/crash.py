@@ -30,7 +30,7 @@ from p2sf.io.psf_files import read_psf, write_psf
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml.lens import read_toml
 from p2sf.lensfile.writing import write_lens
-from p2sf.psf.result import Figures, Psf
+from p2sf.psf.result import Psf, PsfFigures
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.files import recent
 from p2sf_explorer.files.recent import remember
@@ -50,7 +50,7 @@ OLD = b'{"schema": "p2sf-explorer-state", "why": "only a state may take the plac
 
 def writers(folder: Path, version: int) -> dict:
     """Return for each file a function that writes it again."""
-    psf = Psf(NOISE / NOISE.sum(), 1.0 + version, 0.5, "seidel", Figures(strehl=1.0))
+    psf = Psf(NOISE / NOISE.sum(), 1.0 + version, 0.5, "seidel", PsfFigures(strehl=1.0))
     many = {f"{name}-{version}": "x" * 40 for name in range(60)}
     return {
         "lens.toml": lambda: write_lens(LENS, folder / "lens.toml"),

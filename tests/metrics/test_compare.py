@@ -8,7 +8,7 @@ from p2sf.errors import SamplingError
 from p2sf.metrics.compare import compare
 from p2sf.psf.compare import r_squared, relative_l2
 from p2sf.psf.gaussian_fit import gaussian, gaussian_psf
-from p2sf.psf.result import Figures, Psf
+from p2sf.psf.result import Psf, PsfFigures
 from tests.support.reference import huygens_rows
 from tests.support.waves import mirrored
 
@@ -16,7 +16,7 @@ AXIS = centred_axis(64, 0.5)
 
 
 def made(values, strehl=0.5, pixel=0.5) -> Psf:
-    return Psf(np.asarray(values) / np.sum(values), pixel, 0.55, "test", Figures(strehl=strehl))
+    return Psf(np.asarray(values) / np.sum(values), pixel, 0.55, "test", PsfFigures(strehl=strehl))
 
 
 def test_a_psf_equals_itself_whatever_its_scale():

@@ -18,7 +18,7 @@ from p2sf.metrics.window import (
     resolved,
     strehl,
 )
-from p2sf.psf.result import Figures, Psf
+from p2sf.psf.result import Psf, PsfFigures
 from p2sf.psf.seidel import seidel_psf
 from tests.support.waves import NA, WAVELENGTH_UM, waves
 
@@ -26,7 +26,7 @@ AIRY = seidel_psf(waves(), 255, 0.5)
 
 
 def gaussian(sigma_um=3.0, x0=0.0, y0=0.0, pixels=64, pixel_um=1.0):
-    blank = Psf(np.empty((pixels, pixels)), pixel_um, 0.5, "test", Figures(strehl=1.0))
+    blank = Psf(np.empty((pixels, pixels)), pixel_um, 0.5, "test", PsfFigures(strehl=1.0))
     square = (blank.x_um - x0) ** 2 + (blank.y_um[:, None] - y0) ** 2
     values = np.exp(-square / (2 * sigma_um**2))
     return replace(blank, values=values / values.sum())

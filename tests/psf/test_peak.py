@@ -17,7 +17,7 @@ from p2sf.psf import peak
 from p2sf.psf.huygens import huygens_psf, sum_rays
 from p2sf.psf.methods import render, whole_pixel_um
 from p2sf.psf.pixel_integrals import render_integrated
-from p2sf.psf.result import Figures, Psf
+from p2sf.psf.result import Psf, PsfFigures
 from p2sf.psf.seidel import seidel_psf
 from p2sf.psf.spherical import spherical_pupil
 from p2sf.psf.sums.plane_waves import BLOCK, Waves
@@ -156,7 +156,7 @@ def test_figures_given_as_functions_are_asked_for_once_and_travel_as_numbers():
         calls.append(1)
         return 0.25
 
-    psf = Psf(np.full((4, 4), 1 / 16), 1.0, 0.5, "seidel", Figures(strehl, energy=0.5))
+    psf = Psf(np.full((4, 4), 1 / 16), 1.0, 0.5, "seidel", PsfFigures(strehl, energy=0.5))
     assert not calls
     copy = pickle.loads(pickle.dumps(psf))
     assert (psf.strehl, copy.strehl, copy.energy, copy.peak_um, len(calls)) == (0.25, 0.25, 0.5, None, 1)
