@@ -4,8 +4,9 @@ One process per version stays alive and both take turns, so that a machine whose
 the other; printed are the least CPU times, since other work only adds to them, and their ratio, this version over the
 other. The jobs: previews of a field that moves, by each method and `auto`; 12 400 previews; tolerances; a step of each
 slider until all panels are painted, at 1440 × 900, at 3840 × 2160 (*wall*), with a matrix of 3 × 3 PSFs on the stage
-(*matrix*) and with 15 of them beside the MTF through focus (*inspect*); and whole processes, ``p2sf info`` and ``import
-p2sf``. ``--jobs matrix`` does those jobs alone whose names begin so.
+(*matrix*) and with 15 of them beside the MTF through focus (*inspect*); and whole processes: ``p2sf info``, ``p2sf psf
+-o``, ``import p2sf``, that with its first PSF, and the window until its first picture (``--compiled``: with bytecode
+at hand, as installed). ``--jobs matrix`` does those jobs alone whose names begin so.
 """
 
 import argparse
@@ -14,6 +15,7 @@ import resource
 import subprocess
 import sys
 from pathlib import Path
+from tempfile import gettempdir
 
 HERE = Path(__file__).parents[2]
 FRAMES = 20  # of one slider in one turn
@@ -137,7 +139,32 @@ MOVING = tuple(f"moving {method}" for method in ("seidel", "fitted", "traced", "
 FRAME_JOBS = tuple(
     f"{size}{slider} {method}" for size in ("", "wall-") for slider in SLIDERS for method in ("seidel", "auto")
 )
-PROCESSES = {"p2sf info": ["-m", "p2sf", "info", "double_gauss_28"], "import p2sf": ["-c", "import p2sf"]}
+FIRST_RENDER = """
+import p2sf
+lens = p2sf.load_lens("double_gauss_28")
+p2sf.render(lens, p2sf.Source(depth_mm=3000, field_deg=10, wavelength_nm=550), focus_mm=3000)
+"""
+FIRST_PICTURE = """
+import os
+from PySide6.QtWidgets import QApplication
+application = QApplication([])
+from p2sf_explorer.charts import theme
+from p2sf_explorer.window.window import MainWindow
+if hasattr(theme, "configure_plots"):
+    theme.configure_plots()
+window = MainWindow()
+window.show()
+application.processEvents()
+window.grab()
+os._exit(0)
+"""
+PROCESSES = {
+    "p2sf info": ["-m", "p2sf", "info", "double_gauss_28"],
+    "p2sf psf": ["-m", "p2sf", "psf", "double_gauss_28", "-o", str(Path(gettempdir()) / "p2sf_versions.tiff")],
+    "import p2sf": ["-c", "import p2sf"],
+    "first render": ["-c", FIRST_RENDER],
+    "first picture": ["-c", FIRST_PICTURE],
+}
 JOBS = (*MOVING, "stack", "tolerances", *FRAME_JOBS, *MATRICES, *PROCESSES)
 SINCE_0_2 = (*MOVING[1:], "tolerances", *MATRICES)
 
@@ -145,12 +172,15 @@ SINCE_0_2 = (*MOVING[1:], "tolerances", *MATRICES)
 class Version:
     """One checkout: a process that stays alive for its window, and its command line."""
 
-    def __init__(self, folder: Path):
+    def __init__(self, folder: Path, compiled: bool = False):
         explorer = folder / "app" / "p2sf_explorer"
         self.layout = "now" if (explorer / "window").is_dir() else "0.2" if explorer.is_dir() else "0.1"
         paths = os.pathsep.join(map(str, (folder, folder / "app")))
         threads = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "P2SF_THREADS": "1"}
         self.environment = os.environ | threads | {"PYTHONPATH": paths, "QT_QPA_PLATFORM": "offscreen"}
+        if compiled:
+            self.environment.pop("PYTHONDONTWRITEBYTECODE", None)
+            self.environment["PYTHONPYCACHEPREFIX"] = str(Path(gettempdir()) / "p2sf_versions_bytecode")
         self.process = subprocess.Popen(
             [sys.executable, "-c", WORKER, self.layout],
             stdin=subprocess.PIPE,
@@ -179,8 +209,9 @@ def main() -> None:
     parser.add_argument("other", type=Path, help="folder of the earlier checkout")
     parser.add_argument("--rounds", type=int, default=9)
     parser.add_argument("--jobs", nargs="*", default=[""], help="beginnings of the names of jobs")
+    parser.add_argument("--compiled", action="store_true", help="start processes with bytecode at hand, as installed")
     options = parser.parse_args()
-    versions = [Version(HERE), Version(options.other.resolve())]
+    versions = [Version(folder, options.compiled) for folder in (HERE, options.other.resolve())]
     print(f"{'job':28} {'this ms':>9} {'other ms':>9} {'ratio':>6}")
     known = [job for job in JOBS if "0.1" not in {v.layout for v in versions} or job not in SINCE_0_2]
     for job in (job for job in known if job.startswith(tuple(options.jobs))):
