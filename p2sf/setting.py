@@ -48,7 +48,6 @@ from p2sf.paraxial.pupils import (
     rim_radii,
 )
 from p2sf.pupil.mask import CLEAR, MaskSettings, PupilMask
-from p2sf.raytrace.focusing import object_distance, sensor_in_focus
 
 StopChoice = Literal["file", "auto"]
 AimChoice = Literal["stop", "paraxial", "real"]
@@ -334,6 +333,8 @@ def set_up(lens: Lens, request: Request) -> Setup:
 
 def _object_distance(lens: Lens, camera: Settings) -> float:
     """Return where the object of a lens stands with its rings turned by hand, mm; what is in focus does not move it."""
+    from p2sf.raytrace.focusing import object_distance
+
     turned = lens if lens.positions is None else lens_at(lens, camera.zoom, camera.focus_position)
     return object_distance(turned)
 
@@ -448,6 +449,8 @@ def sensor_position(lens: Lens, camera: Settings) -> float:
 
 
 def _sensor_in_focus(lens: Lens, focus_mm: float | None) -> float:
+    from p2sf.raytrace.focusing import sensor_in_focus
+
     if focus_mm is None:
         return lens.sensor_mm
     place = sensor_in_focus(lens, focus_mm)

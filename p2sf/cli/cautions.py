@@ -11,9 +11,6 @@ from p2sf.messages import Message, ParameterName
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.lens_checks import lens_checks, negative_glass
 from p2sf.paraxial.seidel import coefficients, of_aligned_lens
-from p2sf.paraxial.wavefront import steepest_slope
-from p2sf.raytrace.aiming import pupil_rays
-from p2sf.raytrace.trace import out_of_order, trace
 from p2sf.setting import Setup
 
 STEEP_WAVES = 500.0, 2000.0  # from about a second on, and where `seidel_psf` refuses the sum
@@ -44,6 +41,9 @@ def caution(setup: Setup, seidel: bool) -> None:
 
 def crossed_surfaces(setup: Setup) -> Message | None:
     """Return a warning where a ray of the pupil's rim meets two surfaces in the wrong order."""
+    from p2sf.raytrace.aiming import pupil_rays
+    from p2sf.raytrace.trace import out_of_order, trace
+
     lens, source = setup.lens, setup.source
     rays = pupil_rays(lens, source, np.array([0.0, 0.0, 1.0]), np.array([1.0, -1.0, 0.0]), setup.stop)
     points = trace(lens, rays.origins, rays.directions, source.wavelength_um).points
@@ -68,6 +68,8 @@ def virtual_image(setup: Setup) -> Message | None:
 
 def long_sum(setup: Setup) -> Message | None:
     """Return a warning where the six coefficients rise so steeply that summing their pupil takes seconds."""
+    from p2sf.paraxial.wavefront import steepest_slope
+
     source = setup.source
     six = coefficients(setup.lens, source.depth_mm, source.field_slope, source.wavelength_um, setup.stop)
     slope = float(steepest_slope(six))

@@ -3,13 +3,14 @@
 The data are those of refractiveindex.info (`pages`), read on the first look-up.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import cache
 
 from p2sf.errors import GlassError
 from p2sf.glass.dispersion import LINES_UM, refractive_index
-from p2sf.glass.pages import CATALOGUES, SUPPLIERS, GlassPage, Kind, page, page_names
+from p2sf.glass.pages import CATALOGUES, SUPPLIERS, GlassPage, Kind, page, page_names, pages_named
 from p2sf.messages import Alternatives, Message
 
 # Glasses of two makers with one name are the same glass if their indices agree to the last digit of a data sheet.
@@ -40,21 +41,25 @@ def find_entry(text: str) -> CatalogueEntry:
     words = text.split()
     if text.count("/") == 2:
         return _entry(text, text)
-    if len(words) == 2 and words[0].upper() in _makers():
-        return _of_maker(words[0].upper(), words[1], text)
+    if len(words) == 2 and (found := _of_maker(words[0].upper(), words[1], text)):
+        return found
     name = "".join(words).upper()
-    sold = [key for key in _shelf() if key[1] == name]
+    sold = _by_key(pages_named(name))
     if not sold:
         raise GlassError(
             'glass "{name}" is in no catalogue; {suggestion}', name=text, suggestion=_suggestion(name, _labels())
         )
-    current = [key for key in sold if _shelf()[key].startswith(f"{SUPPLIERS}/")]
-    return _unambiguous(text, [_from_shelf(key) for key in current or sold])
+    current = {key: place for key, place in sold.items() if place.startswith(f"{SUPPLIERS}/")}
+    return _unambiguous(text, [_entry(_label(*entry), entry[1]) for entry in (current or sold).items()])
 
 
-def _of_maker(maker: str, name: str, text: str) -> CatalogueEntry:
+def _of_maker(maker: str, name: str, text: str) -> CatalogueEntry | None:
+    """Return a maker's glass; None where nobody of this name makes glass."""
     key = (maker, name.upper())
-    if key not in _shelf():
+    place = _by_key(pages_named(name.upper())).get(key)
+    if place is None and maker not in _makers():
+        return None
+    if place is None:
         of_maker = {label: k for label, k in _labels().items() if k[0] == maker}
         raise GlassError(
             'glass "{name}" is not in the catalogue of {maker}; {suggestion}',
@@ -62,7 +67,7 @@ def _of_maker(maker: str, name: str, text: str) -> CatalogueEntry:
             maker=maker,
             suggestion=_suggestion(name.upper(), of_maker),
         )
-    return _from_shelf(key)
+    return _entry(_label(key, place), place)
 
 
 def _unambiguous(text: str, entries: list[CatalogueEntry]) -> CatalogueEntry:
@@ -108,11 +113,16 @@ def _suggestion(name: str, labels: dict[str, tuple[str, str]]) -> Message:
 
 @cache
 def _shelf() -> dict[tuple[str, str], str]:
-    """Return (MAKER, NAME) in capitals → shelf/book/page of every maker's glass, in the order of the catalogue.
+    """Return `_by_key` of all pages."""
+    return _by_key(page_names())
+
+
+def _by_key(names: Iterable[str]) -> dict[tuple[str, str], str]:
+    """Return (MAKER, NAME) in capitals → shelf/book/page of the makers' glasses among pages, in their order.
 
     A glass of a maker's catalogue replaces that of the same name in the database.
     """
-    sold = (name for name in page_names() if name.startswith((f"{SUPPLIERS}/", f"{CATALOGUES}/")))
+    sold = (name for name in names if name.startswith((f"{SUPPLIERS}/", f"{CATALOGUES}/")))
     return {(_maker(book), glass.upper()): f"{shelf}/{book}/{glass}" for shelf, book, glass in map(_parts, sold)}
 
 
@@ -132,11 +142,11 @@ def _makers() -> frozenset[str]:
 @cache
 def _labels() -> dict[str, tuple[str, str]]:
     """Return "MAKER Name" as written in a lens file → (MAKER, NAME)."""
-    return {_label(key): key for key in _shelf()}
+    return {_label(key, place): key for key, place in _shelf().items()}
 
 
-def _label(key: tuple[str, str]) -> str:
-    return f"{key[0]} {_parts(_shelf()[key])[-1]}"
+def _label(key: tuple[str, str], place: str) -> str:
+    return f"{key[0]} {_parts(place)[-1]}"
 
 
 def glasses_by_maker() -> dict[str, list[str]]:
@@ -145,10 +155,6 @@ def glasses_by_maker() -> dict[str, list[str]]:
     for label, (maker, _) in _labels().items():
         table.setdefault(maker, []).append(label)
     return table
-
-
-def _from_shelf(key: tuple[str, str]) -> CatalogueEntry:
-    return _entry(_label(key), _shelf()[key])
 
 
 def _entry(label: str, name: str) -> CatalogueEntry:

@@ -6,7 +6,7 @@ from functools import lru_cache
 from itertools import pairwise
 from math import inf, isfinite
 from numbers import Real
-from typing import Any, Protocol, TypeGuard, runtime_checkable
+from typing import TYPE_CHECKING, Any, Protocol, TypeGuard, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,8 +15,10 @@ from p2sf.conventions import NM_PER_UM
 from p2sf.errors import GlassError
 from p2sf.glass.catalogue import CatalogueEntry, find_entry
 from p2sf.glass.dispersion import LINES_UM, Values, refractive_index
-from p2sf.glass.transmittance import InternalTransmittance
 from p2sf.messages import Message
+
+if TYPE_CHECKING:
+    from p2sf.glass.transmittance import InternalTransmittance
 
 Range = tuple[float, float] | None
 
@@ -37,7 +39,7 @@ class Medium(Protocol):
         """Return the refractive index in the shape of ``wavelength_um``; GlassError outside the data's range."""
 
 
-def transmittance_of(medium: Medium) -> InternalTransmittance | None:
+def transmittance_of(medium: Medium) -> "InternalTransmittance | None":
     """Return the ``transmittance`` of a medium; None if its absorption is unknown."""
     found: InternalTransmittance | None = getattr(medium, "transmittance", None)
     return found
@@ -156,7 +158,7 @@ class ShiftedIndex:
         return np.asarray(self.medium.index(wavelength_um) + self.shift)
 
     @property
-    def transmittance(self) -> InternalTransmittance | None:
+    def transmittance(self) -> "InternalTransmittance | None":
         """Return that of the medium."""
         return transmittance_of(self.medium)
 

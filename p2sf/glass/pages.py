@@ -6,6 +6,7 @@ that the database lacks, from catalogues of their makers. `tests.long.collect_pa
 """
 
 import gzip
+from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cache
@@ -44,30 +45,42 @@ class GlassPage:
         return self.wavelengths_um[0], self.wavelengths_um[-1]
 
 
-def read_lines(path: Path) -> tuple[str, dict[str, bytes]]:
-    """Return the first line of a file of pages, and shelf/book/page → the rest of its line, not yet decoded."""
-    head, *lines = gzip.decompress(path.read_bytes()).splitlines()
-    return head.decode(), {name.decode(): rest for name, _, rest in (line.partition(b"\t") for line in lines)}
+@cache
+def _heads_and_text() -> tuple[str, bytes]:
+    """Return the first lines of both files, and all others as one text, each between line feeds."""
+    parts = [gzip.decompress(path.read_bytes()).partition(b"\n") for path in (DATA, MORE_DATA)]
+    return "; ".join(head.decode() for head, _, _ in parts), b"\n" + b"".join(lines for _, _, lines in parts)
 
 
 @cache
-def _lines() -> tuple[str, dict[str, bytes]]:
-    """Return what `read_lines` does for both files together."""
-    (head, database), (more, catalogues) = map(read_lines, (DATA, MORE_DATA))
-    return f"{head}; {more}", database | catalogues
+def _in_capitals() -> bytes:
+    """Return the same text in capitals; names are in ASCII, so that every letter keeps its place."""
+    return _heads_and_text()[1].upper()
+
+
+def pages_named(name: str) -> Iterator[str]:
+    """Yield every "shelf/book/page" with this page, in capitals, without a list of all 4000."""
+    text, mark, at = _in_capitals(), f"/{name}\t".encode(), -1
+    while (at := text.find(mark, at + 1)) >= 0:
+        yield _heads_and_text()[1][text.rfind(b"\n", 0, at) + 1 : at + len(mark) - 1].decode()
 
 
 def page_names() -> tuple[str, ...]:
     """Return "shelf/book/page" of every page, those of the database first, each sorted."""
-    return tuple(_lines()[1])
+    return tuple(dict.fromkeys(line.partition(b"\t")[0].decode() for line in _heads_and_text()[1].splitlines()[1:]))
 
 
 def page(name: str) -> GlassPage:
     """Return the page "shelf/book/page"; KeyError if there is none."""
-    kind, *lists = _lines()[1][name].decode().split("\t")
+    text, mark = _heads_and_text()[1], f"\n{name}\t".encode()
+    at = text.rfind(mark)
+    if at < 0:
+        raise KeyError(name)
+    begin = at + len(mark)
+    kind, *lists = text[begin : text.index(b"\n", begin)].decode().split("\t")
     return GlassPage(kind, *(tuple(map(float, numbers.split())) for numbers in lists))
 
 
 def data_version() -> str:
     """Return the sources of the pages: the release of the database with its licence, and the catalogues."""
-    return _lines()[0]
+    return _heads_and_text()[0]

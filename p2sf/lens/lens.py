@@ -14,7 +14,6 @@ from p2sf.arguments import NUMBERS, check_arguments, check_fields
 from p2sf.conventions import FARTHEST_MM, NM_PER_UM, FloatOrArray, angle_from_axis
 from p2sf.errors import GeometryError, RequestError
 from p2sf.glass.media import AIR, MIRROR, Medium, parse_medium, transmittance_of
-from p2sf.html import html_table
 from p2sf.lens.grating import Phase
 from p2sf.lens.irregularity import Irregularity
 from p2sf.lens.placement import Motion, Placement, along_z
@@ -327,6 +326,8 @@ class Lens:
         return f"<Lens {self.name}: {len(self.surfaces)} surfaces, {opened}, aim {self.aim}{moved}>"
 
     def _repr_html_(self) -> str:
+        from p2sf.html import html_table
+
         columns = ("surface", "radius, mm", "thickness, mm", "medium", "conic", "semi-diameter, mm")
         rows = (
             (number, s.radius, s.thickness, s.medium.label, s.conic, s.semi_diameter)

@@ -9,10 +9,8 @@ from pathlib import Path
 
 from p2sf.conventions import FloatOrArray
 from p2sf.errors import LensFileError
-from p2sf.files.atomic import write_whole
 from p2sf.files.reading import open_file
 from p2sf.files.reasons import reason
-from p2sf.lensfile.archives import LARGEST_BYTES, check_size, is_archive, unpack
 from p2sf.messages import Message
 
 LARGEST_FILE = 1_000_000  # bytes of a file of this program; a lens takes a few thousand
@@ -55,6 +53,8 @@ def read_source(path: str | os.PathLike) -> LensText:
 
 def source_of(data: bytes, path: str) -> LensText:
     """Return the text of a lens file's bytes; an archive is opened, another binary file refused."""
+    from p2sf.lensfile.archives import is_archive, unpack
+
     if is_archive(data):
         first, *others = unpack(data, path)
         return replace(_text(first[1], f"{path}/{first[0]}"), beside=tuple(_texts(others, path)))
@@ -95,6 +95,8 @@ def _check_lines(source: LensText) -> None:
 
 def read_bytes(path: str | os.PathLike) -> bytes:
     """Return the bytes of a file; LensFileError when it is missing, a folder, or over 4 MB."""
+    from p2sf.lensfile.archives import LARGEST_BYTES, check_size
+
     try:
         with open_file(path) as stream:
             data = stream.read(LARGEST_BYTES + 1)
@@ -207,6 +209,8 @@ def _decode(data: bytes, path: str | os.PathLike) -> str:
 
 def write_text(text: str, path: str | os.PathLike) -> None:
     """Write a text whole or not at all (`files.atomic.write_whole`); LensFileError."""
+    from p2sf.files.atomic import write_whole
+
     try:
         write_whole(path, lambda handle: handle.write(text.encode("utf-8")))
     except OSError as error:

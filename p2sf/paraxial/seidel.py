@@ -16,7 +16,6 @@ import numpy as np
 from p2sf.arguments import same_values
 from p2sf.conventions import UM_PER_MM, FloatOrArray
 from p2sf.errors import GeometryError
-from p2sf.html import cell, html_table
 from p2sf.lens.grating import Phase
 from p2sf.lens.lens import Lens, Surface, indices, message_if_misaligned
 from p2sf.lens.properties import PROPERTIES
@@ -69,10 +68,14 @@ class Coefficients:
     wavelength_um: np.ndarray
 
     def __repr__(self) -> str:
+        from p2sf.html import cell
+
         waves = (f"{name} {cell(getattr(self, name))}" for name in ("w40", "w31", "w22", "w20", "w11", "wd"))
         return f"<Coefficients in waves: {', '.join(waves)}; NA {cell(self.na)}>"
 
     def _repr_html_(self) -> str:
+        from p2sf.html import html_table
+
         names = ("w40", "w31", "w22", "w20", "w11", "wd")
         return html_table("Wavefront coefficients", ("", "waves"), [(n.capitalize(), getattr(self, n)) for n in names])
 

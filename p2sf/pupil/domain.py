@@ -11,7 +11,6 @@ from typing import ClassVar
 import numpy as np
 
 from p2sf.conventions import FloatOrArray, angle_from_axis
-from p2sf.pupil.quadrature import disc_nodes, gauss_legendre
 
 Piece = tuple[np.ndarray, np.ndarray, np.ndarray]
 """ξ, η and signed shares of the disc's area."""
@@ -44,6 +43,8 @@ class PupilDomain:
 
     def nodes(self, counts: tuple[int, int]) -> "ClearNodes":
         """Return the nodes of (radial, angular) ``counts``."""
+        from p2sf.pupil.quadrature import disc_nodes
+
         half = disc_nodes(*counts)
         return self.over(ClearNodes(half.xi, half.eta, half.weight, 1.0))
 
@@ -124,6 +125,8 @@ class PupilDomain:
 
     def sampling_rays(self, radii: int, directions: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return ξ and η of radii × directions rays for a fit and of those held out, and the former's area weights."""
+        from p2sf.pupil.quadrature import disc_nodes
+
         nodes = disc_nodes(radii, 2 * directions)
         return np.append(nodes.xi, HELD_OUT[0]), np.append(nodes.eta, HELD_OUT[1]), nodes.weight
 
@@ -198,6 +201,8 @@ class WholeDisc(PupilDomain):
         A term ρⁿ·cos mθ has n ≥ m, so that near the middle few directions do, while on the rim a polynomial of degree n
         takes 2n + 1. With as many on all rings, the same number of rays tells some terms apart by rounding alone.
         """
+        from p2sf.pupil.quadrature import gauss_legendre
+
         square, weight = gauss_legendre(radii)
         rho, held = np.sqrt((1 + square) / 2), np.deg2rad(HELD_OUT_AROUND_DEG)
         counts = ring_counts(rho, radii * directions)

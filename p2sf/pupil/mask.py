@@ -19,7 +19,6 @@ from p2sf.conventions import FloatOrArray, write_protect
 from p2sf.errors import RequestError
 from p2sf.parameters import LONGEST_PATH_UM, MASK_PARAMETERS, check_between, check_finite, check_values
 from p2sf.pupil.domain import PupilDomain, domain_of
-from p2sf.pupil.zernike_terms import MOST_TERMS, zernike_terms, zernike_values
 
 if TYPE_CHECKING:
     from scipy.interpolate import RectBivariateSpline
@@ -196,6 +195,8 @@ class PupilMask:
     obscuration_y: float = 0.0
 
     def __post_init__(self) -> None:
+        from p2sf.pupil.zernike_terms import MOST_TERMS
+
         check_fields(self)
         check_values(self, MASK_PARAMETERS)
         _check_within(self.obscuration, self.obscuration_x, self.obscuration_y)
@@ -326,6 +327,8 @@ class PupilMask:
 
     def path_um(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
         """Return the optical path that the mask adds at pupil points of any shape, µm."""
+        from p2sf.pupil.zernike_terms import zernike_values
+
         xi, eta = map(np.asarray, _turned_points(xi, eta, -self.turn_deg))
         path = np.zeros(xi.shape)
         if any(self.zernike_um):
@@ -521,6 +524,8 @@ def mask_slopes(mask: PupilMask) -> MaskSlopes:
 
 
 def _terms(count: int) -> tuple:
+    from p2sf.pupil.zernike_terms import zernike_terms
+
     return zernike_terms("noll", count) if count else ()
 
 

@@ -9,7 +9,6 @@ from p2sf.lens.placement import Motion, along_z
 from p2sf.lens.source import Source
 from p2sf.paraxial import positions
 from p2sf.paraxial.first_order import cardinal_points, image_distance
-from p2sf.raytrace.field_curves import real_foci
 
 FAR_FOCAL_LENGTHS = 30.0  # a sensor in focus beyond them is in effect set for infinity
 FAR_MM = 1e6  # six digits in a file do not distinguish a focus at a kilometre from infinity
@@ -67,6 +66,8 @@ def object_distance(lens: Lens) -> float:
 @lru_cache(maxsize=128)
 def focal_shift(lens: Lens, depth_mm: float) -> float:
     """Return how far behind the sensor the middle of both foci of the axis is, mm along the axis; NaN without one."""
+    from p2sf.raytrace.field_curves import real_foci
+
     try:
         foci = real_foci(lens, Source(depth_mm, 0.0, lens.reference_wavelength_um), 0.0)
     except GeometryError:

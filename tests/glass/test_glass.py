@@ -19,7 +19,7 @@ from p2sf.glass.media import (
     model_glass,
     parse_medium,
 )
-from p2sf.glass.pages import DATA, LONGEST_TABLE, GlassPage, Kind, _lines, page, page_names
+from p2sf.glass.pages import DATA, LONGEST_TABLE, GlassPage, Kind, _heads_and_text, page, page_names
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.first_order import cardinal_points
 from tests.long.collect_pages import lines
@@ -135,7 +135,7 @@ def test_the_data_are_read_quickly():
     times = []
     for _ in range(5):
         start = time.process_time()
-        _lines.__wrapped__()
+        _heads_and_text.__wrapped__()
         times.append(time.process_time() - start)
     assert min(times) < 0.03 and DATA.stat().st_size < 400_000
 
@@ -283,7 +283,7 @@ def test_ranges_are_closed_and_constants_have_none():
 def test_importing_glass_opens_no_catalogue():
     loaded_by(
         "from p2sf.glass.media import model_glass; model_glass(1.5, 60).index(.5); "
-        "from p2sf.glass.pages import _lines; assert not _lines.cache_info().currsize"
+        "from p2sf.glass.pages import _heads_and_text; assert not _heads_and_text.cache_info().currsize"
     )
 
 

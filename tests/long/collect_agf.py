@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from p2sf.glass.pages import CATALOGUES, DATA, MORE_DATA, SUPPLIERS, GlassPage, read_lines
+from p2sf.glass.pages import CATALOGUES, DATA, MORE_DATA, SUPPLIERS, GlassPage
 from p2sf.lensfile.agf import FormulaGlass, read_agf, refractive_index
 from p2sf.lensfile.glass_lookup import DAMAGED_ND, key, nd_of
 from tests.long.collect_pages import page_fields
@@ -28,6 +28,12 @@ HEAD = "catalogues of glass makers (AGF), and earlier releases of refractiveinde
 POLYNOMIALS = {1: (2, -2, -4, -6, -8), 10: (2, -2, -4, -6, -8, -10, -12), 12: (2, -2, -4, -6, -8, 4, 6)}
 POLYNOMIALS[13] = (2, 4, -2, -4, -6, -8, -10, -12)
 RESONANCES = {2: 3, 6: 4, 11: 5}
+
+
+def read_lines(path: Path) -> tuple[str, dict[str, bytes]]:
+    """Return the first line of a file of pages, and shelf/book/page → the rest of its line, not yet decoded."""
+    head, *lines = gzip.decompress(path.read_bytes()).splitlines()
+    return head.decode(), {name.decode(): rest for name, _, rest in (line.partition(b"\t") for line in lines)}
 
 
 def page_of(formula: int, c: Sequence[float]) -> tuple[str, tuple[float, ...]]:

@@ -78,7 +78,6 @@ from p2sf.lens.lens import (
 from p2sf.lens.positions import KEPT, Axis, without_positions
 from p2sf.lens.properties import TOML
 from p2sf.lensfile.source_text import digits, read_text, write_text
-from p2sf.lensfile.surface_endings import check_endings
 from p2sf.lensfile.toml.columns import KINDS as RINGS
 from p2sf.lensfile.toml.columns import axis_text, columns_of, join_columns, read_columns
 from p2sf.lensfile.toml.mask import mask_lines, read_mask
@@ -108,6 +107,8 @@ def lens_to_toml(lens: Lens) -> str:
     A lens that is not what its columns say for its position is written as it is, without them. LensFileError for a
     medium or a shape that no file can hold, and for columns with different stops or kinds of aperture.
     """
+    from p2sf.lensfile.surface_endings import check_endings
+
     check_endings(lens, TOML)
     lens = lens if matches_columns(lens) else without_positions(lens)
     columns, axes = columns_of(lens), lens.positions.axes if lens.positions else ()

@@ -10,7 +10,6 @@ import numpy as np
 
 from p2sf.errors import P2SFError
 from p2sf.files.atomic import DAMAGED
-from p2sf.files.picture_parts import open_picture
 from p2sf.files.reading import read_array
 from p2sf.files.reasons import reason
 from p2sf.lensfile.source_text import digits
@@ -74,6 +73,8 @@ def _map_of_file(table: Table, key: str, scale: float) -> PupilMap:
 
 def _array_of(path: Path) -> np.ndarray:
     """Return the samples of a picture or of an array, from 0 to 1 in a picture; its shape is checked in its head."""
+    from p2sf.files.picture_parts import open_picture
+
     if path.suffix.lower() == ".npy":
         found = read_array(path)
         check_map_shape(found.shape)

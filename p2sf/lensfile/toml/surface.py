@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from math import inf, isfinite
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from p2sf.errors import LensFileError
 from p2sf.glass.media import (
@@ -16,18 +16,19 @@ from p2sf.glass.media import (
     ShiftedIndex,
     TabulatedIndex,
 )
-from p2sf.glass.transmittance import InternalTransmittance
 from p2sf.lens.grating import Grating, Phase
 from p2sf.lens.irregularity import Irregularity
 from p2sf.lens.lens import Surface, scale_surface
 from p2sf.lens.shape_types import SHAPES
 from p2sf.lens.shapes import ODD, Diffraction, Shape
 from p2sf.lens.transmission import Transmission
-from p2sf.lensfile.agf import FormulaGlass
 from p2sf.lensfile.source_text import digits
 from p2sf.lensfile.toml.placement import placements_text, read_placements, read_rim, rim_text
 from p2sf.lensfile.toml.table import Constraint, Table, list_text, text_of
 from p2sf.messages import Message
+
+if TYPE_CHECKING:
+    from p2sf.glass.transmittance import InternalTransmittance
 
 RADIUS = Constraint(lambda x: x == x and x != 0, Message("write a number that is not 0, inf for a plane"))
 THICKNESS = Constraint(isfinite, Message("write the distance to the next surface as a number"))
@@ -63,6 +64,8 @@ def _read_radius(table: Table) -> float:
 
 def medium_text(medium: Medium) -> str:
     """Return a medium as `Table.medium` reads it; LensFileError for one that no file can hold."""
+    from p2sf.lensfile.agf import FormulaGlass
+
     if medium == AIR:
         return '"air"'
     if isinstance(medium, ConstantIndex):
@@ -85,7 +88,7 @@ def medium_text(medium: Medium) -> str:
     )
 
 
-def _transmittance_text(passed: InternalTransmittance) -> str:
+def _transmittance_text(passed: "InternalTransmittance") -> str:
     return f"internal_transmittance = [{', '.join(map(list_text, passed.records))}]"
 
 

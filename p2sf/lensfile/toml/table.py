@@ -6,14 +6,16 @@ from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from json import dumps
 from math import nan
-from typing import Any, NoReturn, TypeGuard
+from typing import TYPE_CHECKING, Any, NoReturn, TypeGuard
 
 from p2sf.errors import GlassError, LensFileError
 from p2sf.glass.media import Medium, parse_medium
-from p2sf.glass.transmittance import InternalTransmittance
-from p2sf.lensfile.agf import COEFFICIENTS, DIRECT, SQUARED, FormulaGlass
 from p2sf.lensfile.source_text import digits
 from p2sf.messages import Message
+
+if TYPE_CHECKING:
+    from p2sf.glass.transmittance import InternalTransmittance
+    from p2sf.lensfile.agf import FormulaGlass
 
 KEYS, PASSED = {"agf_formula", "coefficients", "range_um", "name"}, "internal_transmittance"
 
@@ -30,7 +32,9 @@ def read_medium(value: object) -> Medium:
     return parse_medium(value)
 
 
-def _formula_glass(table: dict[str, Any]) -> FormulaGlass:
+def _formula_glass(table: dict[str, Any]) -> "FormulaGlass":
+    from p2sf.lensfile.agf import COEFFICIENTS, DIRECT, SQUARED, FormulaGlass
+
     if set(table) - {PASSED} != KEYS or not isinstance(table["name"], str):
         raise GlassError("glass has the keys {names}; write {known}", names=tuple(table), known=tuple(sorted(KEYS)))
     name, formula, coefficients, limits = (table[key] for key in ("name", "agf_formula", "coefficients", "range_um"))
@@ -50,7 +54,9 @@ def _formula_glass(table: dict[str, Any]) -> FormulaGlass:
     return FormulaGlass(name, formula, numbers, ends, transmittance=_transmittance(table))
 
 
-def _transmittance(table: dict[str, Any]) -> InternalTransmittance | None:
+def _transmittance(table: dict[str, Any]) -> "InternalTransmittance | None":
+    from p2sf.glass.transmittance import InternalTransmittance
+
     records = table.get(PASSED)
     if records is None:
         return None
