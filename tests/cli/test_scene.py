@@ -2,13 +2,14 @@
 
 import json
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from p2sf.camera import Camera
 from p2sf.cli import main
-from p2sf.cli.scenes import depth_map
+from p2sf.cli.scenes import _warn_of_white, depth_map
 from p2sf.errors import RequestError
 from p2sf.image.deblur import photo_statistics
 from p2sf.image.form import plan_lattice
@@ -209,3 +210,14 @@ def test_a_map_of_depths_is_not_sharpened_by_the_kernels_of_one(scene, tmp_path,
     arguments = ["image", "double_gauss_28", str(scene), "chart:text", "-o", str(tmp_path / "o.png")]
     assert main([*arguments, "--deblur", "richardson-lucy"]) == 2 and "wiener" in capsys.readouterr().err
     assert main([*arguments, "--surround", "black", "--preview"]) == 2 and "--surround" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("depth", ["8", "16", "half", "float"])
+def test_light_above_white_is_told_where_whole_numbers_cut_it_off(depth, capsys):
+    formed = np.full((10, 20, 3), 0.5)
+    _warn_of_white(Path("picture.tif"), formed, depth)
+    assert not capsys.readouterr().err
+    formed[0, 0, 1] = 2.0
+    _warn_of_white(Path("picture.tif"), formed, depth)
+    said = capsys.readouterr().err
+    assert ("0.5 % of the picture is brighter than white" in said) == (depth in ("8", "16"))

@@ -51,6 +51,10 @@ EQUIVALENT: dict[tuple[str, str], str] = {
         "p2sf/pupil/domain.py",
         "rho, held = np.sqrt((1 + square) / 2), (HELD_OUT_AROUND_DEG)",
     ): "rays held out to judge a fit may have any directions",
+    (
+        "p2sf/pupil/mask_nodes.py",
+        "return ceil((2 * ((radial - 4) * width))) + 4 if radial > 4 else radial",
+    ): "more nodes than the sum needs",
 }
 """Of a file and a broken line, why nobody can tell it from the right one."""
 

@@ -3,6 +3,7 @@
 import json
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from p2sf.cli import main
@@ -117,3 +118,13 @@ def test_the_handbook_has_the_tables():
     """`python -c "from p2sf.studies.validate import *; print(markdown(validation()))"` writes one of them."""
     rows = validation()
     assert markdown(rows) in page("numerics") and markdown_of_groups(rows) in page("numerics")
+
+
+def test_the_contrast_of_a_clear_disc_is_the_area_that_two_discs_share():
+    """Circles of radius 1 whose middles are 2s apart, counted on a grid: a cell of 1/500 on the edges is 1e-3."""
+    line = np.linspace(-1, 1, 1001)
+    for share in (0.0, 0.2, 0.5, 0.9, 1.0, 1.3):
+        across = np.hypot(*np.meshgrid(line - share, line)) <= 1
+        both = across & (np.hypot(*np.meshgrid(line + share, line)) <= 1)
+        found = singlet.diffraction_limit(np.array([share * 100.0]), 10.0)
+        assert found[0] == pytest.approx(both.sum() / (np.hypot(*np.meshgrid(line, line)) <= 1).sum(), abs=2e-3)
