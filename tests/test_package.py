@@ -1,9 +1,11 @@
 """The package holds: imports run downwards and in no circle, the core knows no Qt, and importing does no work."""
 
+import ast
 from pathlib import Path
 
 import pytest
 
+import p2sf
 from tests.support.imports import circles, graph, imports, module_paths, upward_imports
 from tests.support.interpreter import loaded_by
 
@@ -168,3 +170,10 @@ NOT_NEEDED = {
 def test_a_start_loads_only_what_it_needs(statement):
     loaded = loaded_by(f"{statement}\n")
     assert {name for name in NOT_NEEDED[statement] if name in loaded} == set()
+
+
+def test_every_public_name_is_declared_once_and_is_there():
+    stub = ast.parse((ROOT / "p2sf" / "__init__.pyi").read_text(encoding="utf-8"))
+    declared = {alias.name for node in stub.body if isinstance(node, ast.ImportFrom) for alias in node.names}
+    assert {*p2sf.__all__, "conventions"} == declared and "widget" in declared
+    assert all(getattr(p2sf, name).__name__ for name in p2sf.__all__)
