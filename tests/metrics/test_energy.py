@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from numpy.polynomial.legendre import Legendre, leggauss
+from scipy.fft import dct
 from scipy.optimize import brentq
 from scipy.special import j0
 
@@ -199,3 +200,17 @@ def test_a_relay_at_infinity_is_refused_before_its_outline_is_sought(name, monke
     with pytest.raises(GeometryError) as caught:
         encircled_energy(find_lens(name), Source())
     assert 0 < caught.value.message.values["percent"] < 5
+
+
+@pytest.mark.parametrize("field", [0.0, 10.0])
+def test_the_quoted_radii_hold_their_shares(field):
+    """Within those radii lies what the curve itself says, to the line that its smallest steps are taken for."""
+    lens, source = find_lens("double_gauss_28"), Source(field_deg=field, wavelength_um=0.55)
+    found = encircled_energy(lens, source, method="fitted")
+    held = encircled_energy(lens, source, method="fitted", radius_um=[found.radius_50_um, found.radius_80_um]).fraction
+    np.testing.assert_allclose(held, [0.5, 0.8], atol=1e-8)
+
+
+def test_sums_of_cosines_are_those_of_scipy():
+    values = np.random.default_rng(4).normal(size=41)
+    np.testing.assert_allclose(energy._cosine_sums(values), dct(values, type=2), atol=1e-13)

@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
+from scipy.special import j0, j1
 
-from p2sf.metrics.perfect import airy_curves
+from p2sf.metrics.perfect import airy_curves, bessel_0_and_1
 
 
 def bessel(order: int, v: np.ndarray) -> np.ndarray:
@@ -19,3 +20,11 @@ def test_the_airy_pattern_and_its_energy_are_bessels():
     safe = np.where(v > 0, v, 1.0)
     assert pattern == pytest.approx(np.where(v > 0, (2 * bessel(1, safe) / safe) ** 2, 1.0), abs=1e-12)
     assert energy == pytest.approx(1 - bessel(0, v) ** 2 - bessel(1, v) ** 2, abs=1e-12)
+
+
+@pytest.mark.parametrize("top", [0.0, 1.0, 40.0, 700.0])
+def test_bessels_integrals_are_the_functions_of_scipy(top):
+    v = np.linspace(0, top, 301)
+    zeroth, first = bessel_0_and_1(v)
+    np.testing.assert_allclose(zeroth, j0(v), atol=1e-14)
+    np.testing.assert_allclose(first, j1(v), atol=1e-14)
