@@ -9,12 +9,11 @@
 
 import re
 from importlib import import_module
-from pathlib import Path
 from typing import Any
 
 # `__init__.pyi` declares every public name and the module that defines it.
-_DECLARED = Path(__file__).with_name("__init__.pyi").read_text(encoding="utf-8")
-_HOMES = {name: home for home, name in re.findall(r"^from (\w+\.\S+) import (\w+)", _DECLARED, re.MULTILINE)}
+with open(f"{__path__[0]}/__init__.pyi", encoding="utf-8") as _stub:
+    _HOMES = {name: home for home, name in re.findall(r"^from (\w+\.\S+) import (\w+)", _stub.read(), re.MULTILINE)}
 __all__ = sorted(_HOMES)
 
 

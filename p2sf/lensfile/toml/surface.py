@@ -16,10 +16,8 @@ from p2sf.glass.media import (
     ShiftedIndex,
     TabulatedIndex,
 )
-from p2sf.lens.grating import Grating, Phase
 from p2sf.lens.irregularity import Irregularity
 from p2sf.lens.lens import Surface, scale_surface
-from p2sf.lens.shape_types import SHAPES
 from p2sf.lens.shapes import ODD, Diffraction, Shape
 from p2sf.lens.transmission import Transmission
 from p2sf.lensfile.source_text import digits
@@ -29,6 +27,7 @@ from p2sf.messages import Message
 
 if TYPE_CHECKING:
     from p2sf.glass.transmittance import InternalTransmittance
+    from p2sf.lens.grating import Phase
 
 RADIUS = Constraint(lambda x: x == x and x != 0, Message("write a number that is not 0, inf for a plane"))
 THICKNESS = Constraint(isfinite, Message("write the distance to the next surface as a number"))
@@ -93,6 +92,8 @@ def _transmittance_text(passed: "InternalTransmittance") -> str:
 
 
 def _shape_text(shape: Shape | None) -> str:
+    from p2sf.lens.shape_types import SHAPES
+
     if shape is None:
         return ""
     if keys := SHAPES[shape.kind].keys:
@@ -107,6 +108,8 @@ def _read_shape(surface: Table) -> Shape | None:
     table = surface.inline("shape")
     if table is None:
         return None
+    from p2sf.lens.shape_types import SHAPES  # which lenses of spheres do without
+
     kind = table.string("type")
     if kind not in SHAPES:
         table.fail('type "{kind}" of a shape is unknown; write one of {kinds}', kind=kind, kinds=tuple(SHAPES))
@@ -128,7 +131,9 @@ def _named_number(table: Table, key: str) -> float | tuple[float, ...]:
     return table.number(key, RADIUS if key.startswith("radius") else FINITE)
 
 
-def _diffraction_text(diffraction: Phase | None) -> str:
+def _diffraction_text(diffraction: "Phase | None") -> str:
+    from p2sf.lens.grating import Grating
+
     if diffraction is None:
         return ""
     order = digits(diffraction.order)
@@ -140,7 +145,9 @@ def _diffraction_text(diffraction: Phase | None) -> str:
     return f"{{ order = {order}, normalisation_radius = {radius}, coefficients = {numbers} }}"
 
 
-def _read_diffraction(surface: Table) -> Phase | None:
+def _read_diffraction(surface: Table) -> "Phase | None":
+    from p2sf.lens.grating import Grating
+
     table = surface.inline("diffraction")
     if table is None:
         return None
