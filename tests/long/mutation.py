@@ -55,6 +55,10 @@ EQUIVALENT: dict[tuple[str, str], str] = {
         "p2sf/pupil/mask_nodes.py",
         "return ceil((2 * ((radial - 4) * width))) + 4 if radial > 4 else radial",
     ): "more nodes than the sum needs",
+    (
+        "p2sf/measure/fitting/point_model.py",
+        "return 1 if self.fill == 0 else max(3, ceil(4 * self.finest.cycles * self.pixel_um * self.fill) + 2)",
+    ): "one sample of a pixel more than its sum needs",
 }
 """Of a file and a broken line, why nobody can tell it from the right one."""
 

@@ -21,10 +21,11 @@ from p2sf.measure.fitting.frame_terms import FOCUS, FrameModel, FramePoint, lens
 from p2sf.measure.fitting.point_model import PictureOptics, PixelSum
 from p2sf.measure.fitting.point_problem import PointPicture
 from p2sf.measure.fitting.pupil_nodes import lens_nodes
+from p2sf.measure.fitting.starting_values import locate
 from p2sf.measure.frame import Frame, FrameGeometry, Noise, calibrate
 from p2sf.measure.listings import listing_of, read_listing
 from p2sf.measure.measurement import FrameRequest, measure_frame, read_measurement, write_measurement
-from p2sf.measure.points import FoundPoint, find_points, in_grid, window_half, window_of
+from p2sf.measure.points import FoundPoint, _steps, find_points, in_grid, window_half, window_of
 from p2sf.measure.reading import read_frame
 from p2sf.measure.simulation import Exposure, grid_of_points, lens_light, simulated_frame
 from p2sf.paraxial.seidel import coefficients
@@ -162,6 +163,17 @@ def test_light_of_a_point_across_an_edge_of_the_window_does_not_count(down, righ
     assert np.array_equal(window_of(frame, own, 8, others=[own, other]).good, ~near[::-1])
 
 
+def test_light_beside_the_middle_of_a_window_has_its_own_place_and_moments():
+    """A Gaussian on samples: its mean and covariance, to the light that is lost in the noise and at the edge."""
+    y, x = np.mgrid[-20:21, -20:21] * 2.0
+    covariance = np.array([[60.0, 25.0], [25.0, 40.0]])
+    place = np.stack([x - 6.0, y + 9.0])
+    light = 1e4 * np.exp(-np.einsum("iab,ij,jab->ab", place, np.linalg.inv(covariance), place) / 2)
+    found = locate(PointPicture(light, 1e-4), PictureOptics(0.125, 0.55, 2.0))
+    assert (found.x, found.y) == pytest.approx((6.0, -9.0), abs=0.01)
+    assert found.moments_um2 == pytest.approx((60.0, 25.0, 40.0), rel=0.01)
+
+
 def test_the_variance_of_counts_is_that_of_their_electrons():
     """Poisson's variance is the mean: light/gain in counts², above the background where that is in the estimate."""
     values, light = np.random.default_rng(1).normal(100.0, 4.0, (60, 60)), np.array([0.0, 100.0, 500.0])
@@ -169,6 +181,13 @@ def test_the_variance_of_counts_is_that_of_their_electrons():
     stated, estimated = (Frame(values, geometry, noise) for noise in (Noise(2.0, 3.0), Noise(2.0)))
     assert stated.variance(light) == pytest.approx(9.0 + light / 2)
     assert estimated.variance(light) == pytest.approx(16.0 + np.array([0.0, 0.0, 200.0]), rel=0.1, abs=0.5)
+
+
+def test_the_steps_of_a_turned_grid_are_its_two_sides():
+    turn = np.deg2rad(10.0)
+    sides = np.array([[np.cos(turn), np.sin(turn)], [-1.3 * np.sin(turn), 1.3 * np.cos(turn)]])
+    xy = np.stack(np.meshgrid(np.arange(5.0), np.arange(4.0)), axis=-1).reshape(-1, 2) @ sides
+    assert _steps(xy) == pytest.approx(sides)
 
 
 @pytest.mark.slow
