@@ -6,6 +6,9 @@ those that import it or have its name, then those of its folder and of `BESIDE`,
 drawn at random and tried in the order drawn, so that the first fifty are a fair sample of all. FILE keeps the outcomes:
 a run goes on where it ended; ``--again`` tries again what no test noticed. ``--only p2sf/psf`` draws in one folder.
 
+Of the first 84 with seed 1, 79 of which are not equivalent, tests noticed 51 in 30 seconds each; with those then written
+for breaks that nobody noticed, 69.
+
 Survivors are listed with what they change. Those of `EQUIVALENT` change nothing that anybody sees; they are left out.
 """
 
@@ -59,6 +62,10 @@ EQUIVALENT: dict[tuple[str, str], str] = {
         "p2sf/measure/fitting/point_model.py",
         "return 1 if self.fill == 0 else max(3, ceil(4 * self.finest.cycles * self.pixel_um * self.fill) + 2)",
     ): "one sample of a pixel more than its sum needs",
+    (
+        "p2sf/paraxial/depth_of_field.py",
+        "if not isfinite(focus):",
+    ): "the marginal ray of a lens that has a focus slopes there",
 }
 """Of a file and a broken line, why nobody can tell it from the right one."""
 
