@@ -6,8 +6,8 @@ those that import it or have its name, then those of its folder and of `BESIDE`,
 drawn at random and tried in the order drawn, so that the first fifty are a fair sample of all. FILE keeps the outcomes:
 a run goes on where it ended; ``--again`` tries again what no test noticed. ``--only p2sf/psf`` draws in one folder.
 
-Of the first 84 with seed 1, 79 of which are not equivalent, tests noticed 51 in 30 seconds each; with those then written
-for breaks that nobody noticed, 69.
+Of the first 84 with seed 1, 79 of which are not equivalent, tests noticed 51 in 30 seconds each; with tests written for
+those that none noticed, 69.
 
 Survivors are listed with what they change. Those of `EQUIVALENT` change nothing that anybody sees; they are left out.
 """
