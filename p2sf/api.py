@@ -120,7 +120,8 @@ def render(
     Returns
     -------
     Psf
-        Samples with unit sum, rows towards the field. A ``P2SFWarning`` says where the window holds too little light.
+        Samples with unit sum, rows towards the field. A ``P2SFWarning`` says where the window holds too little light,
+        but not of a "preview" whose samples are too far apart to tell.
 
     Raises
     ------

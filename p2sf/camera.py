@@ -12,13 +12,9 @@ from numpy.typing import ArrayLike
 from p2sf.arguments import real_array
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import RequestError
-from p2sf.lens.lens import (
-    Lens,
-)
+from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.parameters import (
-    check_depth_map,
-)
+from p2sf.parameters import check_depth_map
 from p2sf.paraxial.first_order import cardinal_points
 from p2sf.raytrace.focusing import focused_distance
 from p2sf.setting import CameraData, set_up_source, usual_depths

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, fields, replace
 from functools import cache, lru_cache, wraps
 from inspect import signature
 from math import inf, isfinite, isinf
-from typing import Any, Literal, TypeVar, cast
+from typing import Any, Literal, Self, TypeVar, cast
 
 import numpy as np
 
@@ -199,9 +199,9 @@ class CameraData(Settings):
         return _call_text("Camera", ([] if lens is None else [repr(lens.name)]), given)
 
     @property
-    def settings(self) -> "CameraData":
+    def settings(self) -> Self:
         """Return how the camera is set, without its lens and its pixels."""
-        return CameraData(**{name: getattr(self, name) for name, _ in _defaults(Settings)})
+        return type(self)(**{name: getattr(self, name) for name, _ in _defaults(Settings)})
 
     @property
     def its_lens(self) -> Lens:

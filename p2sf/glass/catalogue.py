@@ -44,7 +44,7 @@ def find_entry(text: str) -> CatalogueEntry:
     if len(words) == 2 and (found := _of_maker(words[0].upper(), words[1], text)):
         return found
     name = "".join(words).upper()
-    sold = _by_key(pages_named(name))
+    sold = {} if "/" in name else _by_key(pages_named(name))
     if not sold:
         raise GlassError(
             'glass "{name}" is in no catalogue; {suggestion}', name=text, suggestion=_suggestion(name, _labels())

@@ -528,7 +528,9 @@ def _by_fit(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
         found = fit(asked.lens, asked.source, asked.numbers, residual_waves=residual_for(asked.options.min_r2))
     wavelength, quality = asked.source.wavelength_um, asked.options.quality
     psf = psf_of_fit(found, wavelength, asked.window, quality, started, _nodes_within_rims(asked))
-    return psf if quality == "preview" else psf.with_figures(energy=partial(_share_of_rays, psf, asked))
+    if quality == "preview" or psf.figures.energy is None:
+        return psf
+    return psf.with_figures(energy=partial(_share_of_rays, psf, asked))
 
 
 def _share_of_rays(psf: Psf, asked: PsfRequest) -> float | None:

@@ -26,6 +26,7 @@ OFFSETS = np.linspace(-0.75, 0.75, 13)  # of a sample's spacing about each maxim
 LOWEST = 0.5  # of the brightest sample: the lowest maximum of samples that can belong to the peak (cos² of π/4)
 MOST_MAXIMA = 256  # that are interpolated
 TOO_CLOSE = 2e-3  # of the highest: maxima that interpolation, good to 5e-4, and rounding do not tell apart
+ROUGHLY = 0.1  # the same of waves that only resemble those of the picture
 MOST_CLIMBS = 4  # from those
 MOST_IN_PREVIEW = 2**12  # most waves for a climb in a preview, which otherwise takes its best sample
 CLIMB_STEPS = 12  # of Newton's method
@@ -41,7 +42,8 @@ MIRRORED = 4e-6  # of the brightest sample, by which mirror images in float32 di
 class Peak:
     """The largest intensity of a continuous picture, and where it is, µm from the chief ray.
 
-    ``rivals``: other maxima as high to TOO_CLOSE, mirror images not counted: of so many one might be the higher.
+    ``rivals``: other maxima as high to TOO_CLOSE, of which one might be the higher: those at another distance from the
+    chief ray, since mirror images and points of one ring are alike.
     """
 
     value: float
@@ -73,7 +75,7 @@ def peak_of(
     half = waves.blur_um + BORDER / waves.spread
     held = half <= -axis[0] or _border(intensity) < DARK * intensity.max()
     if held and _determined(pixel_um, waves.spread):
-        return _highest(waves, _tops(intensity, axis, waves.spread))
+        return _highest(waves, _tops(intensity, axis, waves.spread), TOO_CLOSE)
     wide = waves if hypot(half, half) <= waves.reach_um else reaching(hypot(half, half))
     if wide is None:
         wide, half = waves, waves.reach_um / sqrt(2)
@@ -83,7 +85,10 @@ def peak_of(
     grid = centred_axis(side, 2 * half / side)
     where = wide.plane if wide.fx.size > MANY_WAVES else wide.within(SEARCH_SECONDS)
     tops = _tops(where.intensity(grid, grid, np.float32), grid, waves.spread)
-    return _highest(wide, [brightest, *tops] if brightest.value > tops[0].value else tops)
+    found = _highest(wide, tops, TOO_CLOSE if where is wide else ROUGHLY)
+    if found.value >= brightest.value:
+        return found
+    return climb(wide, brightest.x_um, brightest.y_um)
 
 
 def _determined(pitch_um: float, spread: float) -> bool:
@@ -144,7 +149,7 @@ def _interpolated(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return the tops of the picture about samples, and their offsets in x and y, in spacings of the samples."""
     near = np.arange(-TAPS, TAPS + 1)
-    wide = np.pad(intensity, TAPS)
+    wide = np.pad(intensity, TAPS, "symmetric" if min(intensity.shape) > TAPS else "edge")  # light may go on beyond
     patches = wide[(row[:, None] + TAPS + near)[:, :, None], (column[:, None] + TAPS + near)[:, None, :]]
     fine = _kernel() @ patches @ _kernel().T
     count, number = np.arange(row.size), OFFSETS.size
@@ -175,15 +180,23 @@ def _kernel() -> np.ndarray:
     return weights
 
 
-def _highest(waves: Waves, tops: list[Peak]) -> Peak:
-    """Return the highest peak by climbing from the highest top, and from others that may be as high."""
-    close = [top for top in tops if top.value >= tops[0].value * (1 - TOO_CLOSE)]
+def _highest(waves: Waves, tops: list[Peak], told: float) -> Peak:
+    """Return the highest peak by climbing from the highest top, and from others that may be as high.
+
+    ``told``: the share of the highest by which tops have to differ to be told apart.
+    """
+    close = [top for top in tops if top.value >= tops[0].value * (1 - told)]
     most = max(1, min(MOST_CLIMBS, MOST_WHILE_CLIMBING // (2 * waves.fx.size)))
     found = [climb(waves, top.x_um, top.y_um) for top in close[:most]]
     highest = max(found, key=lambda peak: peak.value)
-    away = 1 / (8 * waves.spread)
-    same = sum(hypot(one.x_um - highest.x_um, one.y_um - highest.y_um) < away for one in found)
-    return replace(highest, rivals=len(close) - same)
+    alike = [one for one in found + close[most:] if one.value >= highest.value * (1 - TOO_CLOSE)]
+    radius, rivals = [hypot(highest.x_um, highest.y_um)], 0
+    for one in alike:
+        away = hypot(one.x_um, one.y_um)
+        if all(abs(away - other) > 1 / (8 * waves.spread) for other in radius):
+            radius.append(away)
+            rivals += 1
+    return replace(highest, rivals=rivals)
 
 
 def climb(waves: Waves, x: float, y: float, quality: str = "settled") -> Peak:

@@ -112,7 +112,7 @@ def integrate(
         points = render_at(pixels, pixel_um)
         if points.figures.energy is not None:
             return points
-        later = Later(lambda: _light_on_pixels(render_at, pixels, pixel_um, across).energy, _unknown)
+        later = Later(lambda: _light_on_pixels(render_at, pixels, pixel_um, across).energy, lambda: None)
         return points.with_figures(energy=later)
     return _light_on_pixels(render_at, pixels, pixel_um, across)
 
@@ -167,16 +167,27 @@ def render_integrated(
         finest,
         wanted,
     )
-    known, rays = psf.figures.energy, partial(light_of_rays, lens, source, psf, options.clip)
+    known, width = psf.figures.energy, psf.values.shape[-1] * psf.pixel_um
+    rays = partial(light_of_rays, lens, source, psf, options.clip)
+
+    def estimate() -> float | None:
+        if options.quality != "settled":
+            return None
+        return min(rays(), airy_share(width, own.na, source.wavelength_um))
+
     costly = known is None or (isinstance(known, Later) and known.costly)
-    estimate = rays if options.quality == "settled" else _unknown
-    return psf.with_figures(
-        energy=Later(lambda: rays() if psf.energy is None else psf.energy, estimate if costly else None)
-    )
+    share = Later(lambda: rays() if psf.energy is None else psf.energy, estimate if costly else None)
+    return psf.with_figures(energy=share)
 
 
-def _unknown() -> None:
-    return None
+def airy_share(width_um: float, na: float, wavelength_um: float) -> float:
+    """Return about what share of a perfect lens's light a square of this width holds, 0 below a wavelength or so.
+
+    1 − J₀² − J₁² of the circle of its area (Rayleigh 1881) is 1 − 2/πv for large v (DLMF 10.17.3), within 0.03 from
+    v = 2, where it is 0.6.
+    """
+    v = 2 * np.pi * na / wavelength_um * width_um / np.sqrt(np.pi)
+    return float(max(0.0, 1 - 2 / (np.pi * v)))
 
 
 def light_of_rays(lens: Lens, source: Source, psf: Psf, clip: bool) -> float:

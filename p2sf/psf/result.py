@@ -2,6 +2,7 @@
 
 import warnings
 from collections.abc import Callable, Mapping
+from copy import deepcopy
 from dataclasses import dataclass, fields, replace
 from os import PathLike
 from pathlib import Path
@@ -61,6 +62,10 @@ class Later(Generic[Value]):
             self._value, self._compute = compute(), None
         return self._value
 
+    def __deepcopy__(self, memo: dict[int, Any]) -> Value:
+        """Return the value, which is plain data."""
+        return deepcopy(self(), memo)
+
 
 @dataclass(frozen=True, eq=False)
 class PsfFigures:
@@ -119,7 +124,7 @@ class Psf:
     """A point spread function, or a stack of them, and how it was computed.
 
     A notebook shows it as a picture. Its ``figures``, the attributes from ``strehl`` on, are read off the pupil that
-    it was made from when they are first asked for.
+    it was made from when they are first asked for. Until then it holds that pupil, some 40 bytes for each of its waves.
 
     Attributes
     ----------
@@ -160,8 +165,8 @@ class Psf:
     peak_um : tuple or numpy.ndarray or None
         Position of that peak: x and y from the chief ray, µm; (…, 2) for a stack.
     rivals : int or numpy.ndarray
-        Number of other maxima within 0.2 % of that peak, mirror images not counted; where there are several, one of
-        them may be higher by some 1e-4.
+        Number of other maxima within 0.2 % of that peak at another distance from the chief ray, since mirror images
+        and points of one ring are alike; where there are several, one of them may be higher by some 1e-4.
     predicted_error : float or None
         Predicted 1 − R² of the method against the reference, at these settings: due to its description of the pupil,
         which ``error`` does not include. None if no rays were traced to predict it.

@@ -147,7 +147,7 @@ def _result(
         strehl=lambda: float(peaks()[0]) if single else peaks()[0],
         peak_um=lambda: (float(peaks()[1][0]), float(peaks()[1][1])) if single else peaks()[1],
         rivals=lambda: int(peaks()[2]) if single else peaks()[2],
-        energy=energy,
+        energy=None if energy_fraction(coefficients, 1.0, pixel_um) is None else energy,
     )
     return Psf(
         values=stack.values,

@@ -15,7 +15,7 @@ from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf import peak
 from p2sf.psf.huygens import huygens_psf, sum_rays
-from p2sf.psf.methods import render, whole_pixel_um
+from p2sf.psf.methods import PsfOptions, render, whole_pixel_um
 from p2sf.psf.pixel_integrals import render_integrated
 from p2sf.psf.result import Psf, PsfFigures
 from p2sf.psf.seidel import seidel_psf
@@ -185,9 +185,15 @@ def test_nobody_pays_for_a_peak_that_is_not_read(call, monkeypatch):
     assert calls[call]() is not None
 
 
-@pytest.mark.parametrize(("six", "alike"), [((0.0, 0.0, 2.0, 0.0, 0.0, -1.0), 3), ((0.0, 0.4, 0.0, 0.0, 0.0, 0.0), 0)])
-def test_it_says_how_many_maxima_are_as_high(six, alike):
-    """Astigmatism at medial focus has eight alike; of mirror images in x one counts."""
+@pytest.mark.parametrize(
+    ("six", "maxima", "alike"),
+    [
+        ((0.0, 0.0, 2.0, 0.0, 0.0, -1.0), 8, 0),  # astigmatism at medial focus: all at one distance
+        ((0.682, 0.610, -1.947, 0.0, 0.0, 0.8368), 2, 1),
+        ((0.0, 0.4, 0.0, 0.0, 0.0, 0.0), 1, 0),
+    ],
+)
+def test_it_says_how_many_maxima_are_as_high_at_other_distances_from_the_chief_ray(six, maxima, alike):
     c, (xi, eta, share) = waves(*six), disc()
     scale = -float(c.reduced_slope) / float(c.wavelength_um)
     amplitude = share * np.exp(2j * np.pi * np.asarray(wavefront(c, xi, eta)))
@@ -196,9 +202,21 @@ def test_it_says_how_many_maxima_are_as_high(six, alike):
     light = np.abs((y * amplitude) @ x.T) ** 2
     inner = light[1:-1, 1:-1]
     about = np.max([light[1 + i : 480 + i, 1 + k : 480 + k] for i in (-1, 0, 1) for k in (-1, 0, 1) if i or k], axis=0)
-    column = np.nonzero((inner > about) & (inner > 0.998 * light.max()))[1]
-    assert sum(dense[1:-1][column] > -1e-9) == alike + 1
+    row, column = np.nonzero((inner > about) & (inner > 0.998 * light.max()))
+    distances = np.hypot(dense[1:-1][column], dense[1:-1][row])
+    assert distances.size == maxima and np.unique(distances.round(1)).size == alike + 1
     assert seidel_psf(c, 33, 1.7).rivals == alike
+
+
+@pytest.mark.parametrize("method", ["huygens", "spherical"])
+def test_it_is_never_below_a_sample_of_the_picture(method):
+    """A law, in blurs much wider than the window, whose waves beyond are too many to be searched whole."""
+    rng = np.random.default_rng(7)
+    for _ in range(8):
+        lens = with_f_number(find_lens("landscape"), float(rng.uniform(4, 8)))
+        source = Source(float(rng.uniform(800, 3000)), field_deg=float(rng.uniform(2, 9)))
+        psf = render(lens, source, method, 16, 0.7, PsfOptions("preview") if method == "spherical" else PsfOptions())
+        assert psf.strehl >= psf.over_unaberrated.max() * (1 - 1e-5)  # float32 of a preview
 
 
 def test_the_light_near_a_point_of_millions_of_waves_takes_little_memory():

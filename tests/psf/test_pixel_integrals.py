@@ -17,7 +17,7 @@ from p2sf.paraxial.seidel import coefficients
 from p2sf.psf import pixel_integrals
 from p2sf.psf.methods import render
 from p2sf.psf.pixel_integrals import render_integrated, samples_across
-from p2sf.psf.result import IN_WINDOW
+from p2sf.psf.result import IN_WINDOW, LEAST_LIGHT, Later
 from tests.support.pupil_sums import ray_sum
 
 
@@ -170,3 +170,19 @@ def test_far_samples_of_a_cut_off_blur_warn_by_its_rays_and_sum_no_second_pictur
         assert psf.figures.energy.roughly() == pytest.approx(1 / np.pi, abs=0.02)
         assert "% of the light" in repr(psf)
     assert psf.energy == pytest.approx(1 / np.pi, abs=0.03)  # diffraction at the edges of a disc of 40 µm
+
+
+@pytest.mark.parametrize("method", ["seidel", "fitted", "traced", "huygens", "auto"])
+@pytest.mark.filterwarnings("ignore::p2sf.P2SFWarning")
+def test_the_light_of_two_far_samples_is_that_of_narrow_ones_between(method):
+    """5 µm at f/8: 72 % of the light falls on 2 × 2 pixels, of which the rays, all inside, know nothing."""
+    how = {"f_number": 8, "focus_mm": 3000, "integrated": False}
+    lens, source = find_lens("tessar"), Source(3000.0)
+    psf = p2sf.render(lens, source, method, pixels=2, pixel_um=5.0, **how)
+    fine = p2sf.render(lens, source, "huygens", pixels=80, pixel_um=0.25, **how)
+    within = np.zeros(80)  # pixels about −5 and 0 µm reach from −7.5 to 2.5
+    within[11:50], within[[10, 50]] = 1.0, 0.5
+    light = float(within @ fine.values @ within * fine.energy)
+    assert light < 0.75
+    assert isinstance(psf.figures.energy, Later) and psf.figures.energy.roughly() < LEAST_LIGHT
+    assert psf.energy == pytest.approx(light, abs=6e-3)  # sums over pixels err by 4e-3 (`samples_across`), six by 2e-3
