@@ -39,10 +39,10 @@ def cluster(tmp_path_factory):
 
 def slowed() -> int:
     """Let a worker take a while for each chunk, and return its process id."""
-    import p2sf.database.files.stack_write as write
+    from p2sf.database.files import stack_work as work
 
-    plain = write.__dict__.setdefault("plain", write.light_of)
-    write.light_of = lambda *arguments, **options: (time.sleep(0.2), plain(*arguments, **options))[1]
+    plain = work.__dict__.setdefault("plain", work.light_of)
+    work.light_of = lambda *arguments, **options: (time.sleep(0.2), plain(*arguments, **options))[1]
     return os.getpid()
 
 

@@ -109,14 +109,15 @@ def test_progress_and_cancel_between_chunks_and_going_on_gives_the_same_bytes(st
 
 SLOW_BUILD = """
 import sys, time
-import p2sf.database.files.stack_write as write
+from p2sf.database.files import stack_work
+from p2sf.database.files.stack_write import write_stack
 from tests.database.test_stack import SAMPLING, small
-plain = write.light_of
+plain = stack_work.light_of
 def slow(*arguments, **options):
     time.sleep(0.15)
     return plain(*arguments, **options)
-write.light_of = slow
-write.write_stack(*small(), sys.argv[1], SAMPLING)
+stack_work.light_of = slow
+write_stack(*small(), sys.argv[1], SAMPLING)
 """
 
 

@@ -163,7 +163,7 @@ def test_a_choice_gives_its_reason(choice, reason):
 
 @pytest.mark.slow
 def test_choose_never_picks_a_method_below_the_tolerance(capsys):
-    outcomes = list(trials(20, seed=2, most_seconds=5.0))
+    outcomes = list(trials(12, seed=2, most_seconds=2.0))
     with capsys.disabled():
         print("\n" + summary(outcomes))
     assert not [outcome for outcome in outcomes if isinstance(outcome, Trial) and outcome.wrong]
