@@ -245,7 +245,7 @@ def summary(
         ("samples", f"{result.values.shape[-1]} × {result.values.shape[-2]}", LIGHT if result.integrated else POINTS),
         ("pixel", result.pixel_um, "µm"),
         ("Strehl ratio", known["strehl"], NO_STREHL if known["strehl"] is None else SAME_PUPIL),
-        *([("other peaks within 0.2 % of it", known["rivals"], "")] if known["rivals"] else []),
+        *([("other peaks within 0.2 % of it", known["other_peaks"], "")] if known["other_peaks"] else []),
         *(
             []
             if result.peak_um is None

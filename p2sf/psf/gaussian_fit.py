@@ -45,7 +45,7 @@ def gaussian_psf(reference: Psf) -> Psf:
         method="gaussian",
         figures=replace(
             reference.figures,
-            rivals=0,
+            other_peaks=0,
             strehl=None,  # a fit has no pupil, and if narrower than the reference it would peak above 1
             predicted_error=1 - r_squared(values, wanted),  # measured, since the reference is at hand
         ),

@@ -73,7 +73,7 @@ from p2sf.threads import one_blas_thread
 AUTO = "auto"
 BELOW_ONE = 1 - 2.0**-53  # the largest R² that can be required of a choice
 PITCH_RINGS = 8  # of rays, to estimate the extent of the light
-AUTO_SECONDS = 1.0  # that `auto` may take for a sum by its estimate: light per pixel takes two, 5 s with all else
+AUTO_SECONDS = 1.0  # that `auto` may take for a sum by its estimate: two passes have to agree, 5 s with all else
 FIELD_SHARE = 0.01  # of the root of the 1 − R² allowed, that a sum of spherical waves may leave of the field
 PLANE_SHARE = 0.9  # of the allowed error that plane waves may use up: spherical ones take fifty times as long as a fit
 PLANE_NODES = 2.0  # times those of spherical waves, more than plane waves of the same blur take

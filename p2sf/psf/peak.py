@@ -42,14 +42,14 @@ MIRRORED = 4e-6  # of the brightest sample, by which mirror images in float32 di
 class Peak:
     """The largest intensity of a continuous picture, and where it is, µm from the chief ray.
 
-    ``rivals``: other maxima as high to TOO_CLOSE, of which one might be the higher: those at another distance from the
-    chief ray, since mirror images and points of one ring are alike.
+    ``other_peaks``: how many maxima are as high to TOO_CLOSE, of which one might be the higher, at another distance
+    from the chief ray, since mirror images and points of one ring are alike.
     """
 
     value: float
     x_um: float
     y_um: float
-    rivals: int = 0
+    other_peaks: int = 0
 
 
 @one_blas_thread
@@ -190,13 +190,13 @@ def _highest(waves: Waves, tops: list[Peak], told: float) -> Peak:
     found = [climb(waves, top.x_um, top.y_um) for top in close[:most]]
     highest = max(found, key=lambda peak: peak.value)
     alike = [one for one in found + close[most:] if one.value >= highest.value * (1 - TOO_CLOSE)]
-    radius, rivals = [hypot(highest.x_um, highest.y_um)], 0
+    radius, other_peaks = [hypot(highest.x_um, highest.y_um)], 0
     for one in alike:
         away = hypot(one.x_um, one.y_um)
         if all(abs(away - other) > 1 / (8 * waves.spread) for other in radius):
             radius.append(away)
-            rivals += 1
-    return replace(highest, rivals=rivals)
+            other_peaks += 1
+    return replace(highest, other_peaks=other_peaks)
 
 
 def climb(waves: Waves, x: float, y: float, quality: str = "settled") -> Peak:

@@ -58,7 +58,7 @@ def psf_of_intensity(
     figures = PsfFigures(
         strehl=lambda: highest().value,
         peak_um=lambda: (highest().x_um, highest().y_um),
-        rivals=lambda: highest().rivals,
+        other_peaks=lambda: highest().other_peaks,
         energy=None if light is None else energy,
     )
     return Psf(intensity / total, pixel_um, float(wavelength_um), method, figures, sum_over_peak=total)

@@ -88,12 +88,14 @@ def integrate(
     pixel_um: float,
     finest_um: float,
     wanted: bool | None = None,
+    estimate: Callable[[Psf], Figure] | None = None,
 ) -> Psf:
     """Return the PSF of ``render_at(samples, µm)`` as light per pixel or as its samples.
 
     ``wanted``: light per pixel (True), samples (False) or, if None, light where the pitch exceeds ``finest_um`` and
     that takes at most LARGEST samples a side. Raises SamplingError if light is requested and takes more. If samples are
-    too far apart to give a share of the light, it is taken from the light per pixel, when it is read.
+    too far apart to give a share of the light, it is taken from the light per pixel, when it is read; ``estimate`` is
+    what a warning takes in its place.
     """
     check_samples(pixels, pixel_um)
     across = samples_across(pixels, pixel_um, finest_um, 0.0 if wanted else 1.0)
@@ -112,8 +114,9 @@ def integrate(
         points = render_at(pixels, pixel_um)
         if points.figures.energy is not None:
             return points
-        later = Later(lambda: _light_on_pixels(render_at, pixels, pixel_um, across).energy, lambda: None)
-        return points.with_figures(energy=later)
+        guess = None if estimate is None else partial(estimate, points)
+        share = Later(lambda: _light_on_pixels(render_at, pixels, pixel_um, across).energy, guess)
+        return points.with_figures(energy=share)
     return _light_on_pixels(render_at, pixels, pixel_um, across)
 
 
@@ -160,31 +163,34 @@ def render_integrated(
     finest = float(critical_pixel_um(source.wavelength_um, max(own.na_x, own.na_y)))
     if method == SPHERICAL.name:
         finest = min(finest, critical_pixel_of_spheres(lens, source))
+    settled = options.quality == "settled"
+
+    def estimate(points: Psf) -> float | None:
+        if not settled:
+            return None
+        width = points.values.shape[-1] * points.pixel_um
+        rays = light_of_rays(lens, source, points, options.clip)
+        return min(rays, airy_share(width, own.na, source.wavelength_um))
+
     psf = integrate(
         lambda count, pitch: render(lens, source, method, count, pitch, options),
         pixels,
         pixel_um or whole_pixel_um(lens, source, pixels, method),
         finest,
         wanted,
+        estimate,
     )
-    known, width = psf.figures.energy, psf.values.shape[-1] * psf.pixel_um
-    rays = partial(light_of_rays, lens, source, psf, options.clip)
-
-    def estimate() -> float | None:
-        if options.quality != "settled":
-            return None
-        return min(rays(), airy_share(width, own.na, source.wavelength_um))
-
-    costly = known is None or (isinstance(known, Later) and known.costly)
-    share = Later(lambda: rays() if psf.energy is None else psf.energy, estimate if costly else None)
+    known, rays = psf.figures.energy, partial(light_of_rays, lens, source, psf, options.clip)
+    costly = (isinstance(known, Later) and known.costly) or (known is None and not settled)
+    share = Later(lambda: rays() if psf.energy is None else psf.energy, partial(estimate, psf) if costly else None)
     return psf.with_figures(energy=share)
 
 
 def airy_share(width_um: float, na: float, wavelength_um: float) -> float:
     """Return about what share of a perfect lens's light a square of this width holds, 0 below a wavelength or so.
 
-    1 − J₀² − J₁² of the circle of its area (Rayleigh 1881) is 1 − 2/πv for large v (DLMF 10.17.3), within 0.03 from
-    v = 2, where it is 0.6.
+    1 − J₀² − J₁² of the circle of its area (Rayleigh 1881) is 1 − 2/πv for large v (DLMF 10.17.3): within 0.03 from
+    v = 2.5, where it is 0.75.
     """
     v = 2 * np.pi * na / wavelength_um * width_um / np.sqrt(np.pi)
     return float(max(0.0, 1 - 2 / (np.pi * v)))

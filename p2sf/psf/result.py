@@ -76,7 +76,7 @@ class PsfFigures:
 
     strehl: Figure | Callable[[], Figure] = None
     peak_um: Place | Callable[[], Place] = None
-    rivals: int | np.ndarray | Callable[[], int | np.ndarray] = 0
+    other_peaks: int | np.ndarray | Callable[[], int | np.ndarray] = 0
     energy: Figure | Callable[[], Figure] = None
     predicted_error: Number | Callable[[], Number] = None
     fresnel_number: Number | Callable[[], Number] = None
@@ -164,7 +164,7 @@ class Psf:
         Share of all light that falls into the window, although ``values`` have unit sum; None if unknown.
     peak_um : tuple or numpy.ndarray or None
         Position of that peak: x and y from the chief ray, µm; (…, 2) for a stack.
-    rivals : int or numpy.ndarray
+    other_peaks : int or numpy.ndarray
         Number of other maxima within 0.2 % of that peak at another distance from the chief ray, since mirror images
         and points of one ring are alike; where there are several, one of them may be higher by some 1e-4.
     predicted_error : float or None
@@ -196,7 +196,7 @@ class Psf:
 
     strehl = Read[Figure]()
     peak_um = Read[Place]()
-    rivals = Read[int | np.ndarray]()
+    other_peaks = Read[int | np.ndarray]()
     energy = Read[Figure]()
     predicted_error = Read[Number]()
     fresnel_number = Read[Number]()

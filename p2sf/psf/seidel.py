@@ -146,7 +146,7 @@ def _result(
     figures = PsfFigures(
         strehl=lambda: float(peaks()[0]) if single else peaks()[0],
         peak_um=lambda: (float(peaks()[1][0]), float(peaks()[1][1])) if single else peaks()[1],
-        rivals=lambda: int(peaks()[2]) if single else peaks()[2],
+        other_peaks=lambda: int(peaks()[2]) if single else peaks()[2],
         energy=None if energy_fraction(coefficients, 1.0, pixel_um) is None else energy,
     )
     return Psf(
@@ -168,7 +168,7 @@ def _result(
 def _peaks(
     coefficients: Coefficients, stack: SummedStack, pixel_um: float, mask: PupilMask, quality: str
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the peaks of continuous pictures in units of the unaberrated peak, their places, (…, 2) µm, and rivals."""
+    """Return Strehl ratios, the places of the peaks, (…, 2) µm, and how many other peaks are as high."""
     shape, pixels = stack.values.shape[:-2], stack.values.shape[-1]
     planes, totals = stack.values.reshape(-1, pixels, pixels), np.ravel(stack.total)
     reach_um = window_reach_um(pixels, pixel_um)
@@ -181,7 +181,7 @@ def _peaks(
             peak = sampled_peak(plane * total, pixel_um)
         else:
             peak = peak_of(plane * total, pixel_um, waves, reaching, quality)
-        found.append((peak.value, peak.x_um, peak.y_um, peak.rivals))
+        found.append((peak.value, peak.x_um, peak.y_um, peak.other_peaks))
     table = np.reshape(found, (*shape, 4))
     return table[..., 0], table[..., 1:3], table[..., 3].astype(int)
 

@@ -207,3 +207,24 @@ def _wrap(pupil: np.ndarray, size: int) -> np.ndarray:
     blocks = np.pad(pupil, padding).reshape(*pupil.shape[:-2], times, size, times, size)
     centre = before + side // 2
     return np.roll(blocks.sum((-4, -2)), (-centre, -centre), (-2, -1))
+
+
+def newton_step(sums: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return |E|², (…,), Newton's step towards its maximum, (…, 2), and the gain expected of it.
+
+    ``sums``: of plane waves at a point times 1, fx, fy, fx², fx·fy and fy², (…, 6). Where |E|² is not concave, the step
+    is along its gradient.
+    """
+    # E′ = 2πi Σ f·wave and E″ = −4π² Σ f²·wave; of |E|², half of its derivatives, in units of 2π.
+    field, by_x, by_y, by_xx, by_xy, by_yy = np.moveaxis(sums, -1, 0)
+    back = field.conjugate()
+    slope_x, slope_y = -(back * by_x).imag, -(back * by_y).imag
+    bend_x, bend_y = np.abs(by_x) ** 2 - (back * by_xx).real, np.abs(by_y) ** 2 - (back * by_yy).real
+    bend_xy = (by_x.conjugate() * by_y).real - (back * by_xy).real
+    determinant = bend_x * bend_y - bend_xy**2
+    concave = (bend_x < 0) & (determinant > 0)
+    steepest, safe = np.maximum(np.abs(bend_x) + np.abs(bend_y), 1e-300), np.where(concave, determinant, 1.0)
+    step_x = np.where(concave, (bend_xy * slope_y - bend_y * slope_x) / safe, slope_x / steepest)
+    step_y = np.where(concave, (bend_xy * slope_x - bend_x * slope_y) / safe, slope_y / steepest)
+    gain = slope_x * step_x + slope_y * step_y
+    return np.abs(field) ** 2, np.stack([step_x, step_y], -1) / (2 * np.pi), gain

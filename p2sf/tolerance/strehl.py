@@ -1,12 +1,15 @@
-"""Strehl ratios of many builds at once: the peak of each picture, by Newton's method from a coarse look about it."""
+"""Strehl ratios of many builds at once: the peak of each picture, by Newton's method from a coarse grid."""
 
 from collections.abc import Iterator
 
 import numpy as np
 
+from p2sf.pupil.transform import newton_step
+
 SHARP = 0.5  # of the unaberrated peak: where the light at the point of least variance is above, the peak is near it
-REACH, LOOKS = 2.5, 21  # periods of the highest frequency about that point that are looked at, and looks along them
-STARTS = 3  # with which 1 of 194 blurred builds is 1 % too low; a quarter of a period is between looks
+REACH = 2.5  # periods of the highest frequency that a grid reaches about that point
+SIDE = 21  # places of the grid along a side
+STARTS = 3  # of its maxima: with one of them a blurred build is up to 7 % too low, with three 1 %
 LONGEST = 0.125  # of such a period, a step
 STEPS = 8  # at most
 ENOUGH = 1e-4  # of a peak: the next step gains about the square of it
@@ -28,7 +31,7 @@ def strehl_ratios(waves: np.ndarray, weight: np.ndarray, frequencies: np.ndarray
     peak = np.where(np.isnan(least_variance), np.nan, 0.0)
     peak[sharp] = _climb(angle[sharp], turn, moments, np.zeros((sharp.size, 2)))
     if blurred.size:
-        for start in _brightest_looks(field[blurred] * moments[:, 0], turn):
+        for start in _brightest_places(field[blurred] * moments[:, 0], turn):
             peak[blurred] = np.maximum(peak[blurred], _climb(angle[blurred], turn, moments, start))
     return peak
 
@@ -38,7 +41,7 @@ def _climb(angle: np.ndarray, turn: np.ndarray, moments: np.ndarray, place: np.n
     peak, left = np.zeros(len(angle)), np.arange(len(angle))
     for _ in range(STEPS):
         here = angle[left] + (2 * np.pi * place[left]).astype(SINGLE) @ turn
-        value, step, gain = _newton(np.cos(here) @ moments + 1j * (np.sin(here) @ moments))
+        value, step, gain = newton_step(np.cos(here) @ moments + 1j * (np.sin(here) @ moments))
         part = np.minimum(1.0, LONGEST / np.maximum(np.hypot(*step.T), 1e-300))
         done = (part == 1) & (gain < ENOUGH * value)
         peak[left] = np.maximum(peak[left], value + np.where(done, gain, 0.0))
@@ -49,33 +52,14 @@ def _climb(angle: np.ndarray, turn: np.ndarray, moments: np.ndarray, place: np.n
     return peak
 
 
-def _brightest_looks(field: np.ndarray, turn: np.ndarray) -> Iterator[np.ndarray]:
+def _brightest_places(field: np.ndarray, turn: np.ndarray) -> Iterator[np.ndarray]:
     """Yield the brightest places of a square grid that no neighbour exceeds, STARTS of each build, (builds, 2)."""
-    axis = np.linspace(-REACH, REACH, LOOKS)
-    looks = np.stack(np.meshgrid(axis, axis), -1).reshape(-1, 2)
-    away = (2 * np.pi * turn.T) @ looks.T.astype(SINGLE)
-    light = np.abs(field @ (np.cos(away) + 1j * np.sin(away))).reshape(-1, LOOKS, LOOKS)
+    axis = np.linspace(-REACH, REACH, SIDE)
+    grid = np.stack(np.meshgrid(axis, axis), -1).reshape(-1, 2)
+    away = (2 * np.pi * turn.T) @ grid.T.astype(SINGLE)
+    light = np.abs(field @ (np.cos(away) + 1j * np.sin(away))).reshape(-1, SIDE, SIDE)
     wide = np.pad(light, ((0, 0), (1, 1), (1, 1)))
-    around = [wide[:, i : LOOKS + i, k : LOOKS + k] for i in range(3) for k in range(3)]
+    around = [wide[:, i : SIDE + i, k : SIDE + k] for i in range(3) for k in range(3)]
     tops = np.where(light == np.max(around, axis=0), light, 0).reshape(len(field), -1)
     for start in np.argsort(-tops, axis=1)[:, :STARTS].T:
-        yield looks[start]
-
-
-def _newton(sums: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return |E|², Newton's step towards its maximum (…, 2) and the gain expected, as `Waves.near` does of one field.
-
-    ``sums``: of the waves times 1, fx, fy, fx², fx·fy and fy², (…, 6).
-    """
-    field, by_x, by_y, by_xx, by_xy, by_yy = np.moveaxis(sums, -1, 0)
-    back = field.conjugate()
-    slope_x, slope_y = -(back * by_x).imag, -(back * by_y).imag
-    bend_x, bend_y = np.abs(by_x) ** 2 - (back * by_xx).real, np.abs(by_y) ** 2 - (back * by_yy).real
-    bend_xy = (by_x.conjugate() * by_y).real - (back * by_xy).real
-    determinant = bend_x * bend_y - bend_xy**2
-    concave = (bend_x < 0) & (determinant > 0)
-    steepest, safe = np.maximum(np.abs(bend_x) + np.abs(bend_y), 1e-300), np.where(concave, determinant, 1.0)
-    step_x = np.where(concave, (bend_xy * slope_y - bend_y * slope_x) / safe, slope_x / steepest)
-    step_y = np.where(concave, (bend_xy * slope_x - bend_x * slope_y) / safe, slope_y / steepest)
-    gain = slope_x * step_x + slope_y * step_y
-    return np.abs(field) ** 2, np.stack([step_x, step_y], -1) / (2 * np.pi), gain
+        yield grid[start]

@@ -186,3 +186,10 @@ def test_the_light_of_two_far_samples_is_that_of_narrow_ones_between(method):
     assert light < 0.75
     assert isinstance(psf.figures.energy, Later) and psf.figures.energy.roughly() < LEAST_LIGHT
     assert psf.energy == pytest.approx(light, abs=6e-3)  # sums over pixels err by 4e-3 (`samples_across`), six by 2e-3
+
+
+def test_a_wavefront_on_far_samples_is_said_to_be_cut_off():
+    """A square of 1.1 λ/NA holds some two thirds of an Airy pattern's light."""
+    with pytest.warns(p2sf.P2SFWarning, match="of the light"):
+        psf = p2sf.psf_of_opd(np.zeros((128, 128)), na=0.1, wavelength_nm=500, pixels=1, pixel_um=5.5, integrated=False)
+    assert psf.energy == pytest.approx(airy_light(0.1, 0.5, 5.5 / 2), abs=6e-3)  # sums over pixels err by 4e-3

@@ -11,7 +11,7 @@ from p2sf.messages import Message
 from p2sf.pupil.domain import PupilDomain
 from p2sf.pupil.phasors import cosine_sine
 from p2sf.pupil.quadrature import nodes_for
-from p2sf.pupil.transform import sum_plane_waves
+from p2sf.pupil.transform import newton_step, sum_plane_waves
 from p2sf.raytrace.ray_field import Steepness
 
 Counts = tuple[int, int]
@@ -116,18 +116,5 @@ class Waves:
         """
         blocks = (slice(first, first + BLOCK) for first in range(0, max(1, len(self.fx)), BLOCK))
         sums = [self._moments_at(x, y, nodes) for nodes in blocks]
-        field, by_x, by_y, by_xx, by_xy, by_yy = np.sum(sums, axis=0)
-        # E′ = 2πi Σ f·wave and E″ = −4π² Σ f²·wave; of |E|², half of its derivatives, in units of 2π.
-        back = complex(field).conjugate()
-        slope_x, slope_y = -(back * by_x).imag, -(back * by_y).imag
-        bend_x, bend_y = abs(by_x) ** 2 - (back * by_xx).real, abs(by_y) ** 2 - (back * by_yy).real
-        bend_xy = (complex(by_x).conjugate() * by_y).real - (back * by_xy).real
-        value, determinant = abs(field) ** 2, bend_x * bend_y - bend_xy**2
-        if bend_x < 0 < determinant:
-            step_x = (bend_xy * slope_y - bend_y * slope_x) / determinant
-            step_y = (bend_xy * slope_x - bend_x * slope_y) / determinant
-        else:
-            steepest = max(abs(bend_x) + abs(bend_y), 1e-300)
-            step_x, step_y = slope_x / steepest, slope_y / steepest
-        gain = slope_x * step_x + slope_y * step_y
-        return value, step_x / (2 * pi), step_y / (2 * pi), gain
+        value, (step_x, step_y), gain = newton_step(np.sum(sums, axis=0))
+        return float(value), float(step_x), float(step_y), float(gain)
