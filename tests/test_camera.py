@@ -15,10 +15,10 @@ import p2sf_explorer
 from p2sf.camera import Camera
 from p2sf.cli import main
 from p2sf.errors import RequestError
+from p2sf.figures.psf_data import Later
 from p2sf.lens.lens import with_absorption, with_aim, with_f_number, with_mask
 from p2sf.lensfile.library import find_lens
 from p2sf.parameters import CAMERA_PARAMETERS, MASK_PARAMETERS, PARAMETERS, SOURCE_PARAMETERS
-from p2sf.psf.result import Later
 from p2sf.pupil.mask import MaskSettings, PupilMask
 from p2sf.scene.files import KEYS
 from p2sf.scene.scene import Scene

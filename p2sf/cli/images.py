@@ -15,6 +15,7 @@ from p2sf.cli.screen import FILLED, Row, heading, print_json, print_table, warn
 from p2sf.colour.spectrum import WORDS
 from p2sf.database.accuracy import DatabaseAccuracy
 from p2sf.errors import P2SFError, RequestError, SamplingError
+from p2sf.figures.psf_data import facts
 from p2sf.files.writing import plain
 from p2sf.io.psf_files import ENDINGS, write_psf
 from p2sf.io.record import describe
@@ -24,7 +25,7 @@ from p2sf.metrics.measures import Energy, energy_in, parts_of
 from p2sf.metrics.window import centroid, radius_of_energy
 from p2sf.psf.methods import AUTO, PsfOptions, by_six
 from p2sf.psf.prediction import ALLOWED, TOO_FAR, USELESS
-from p2sf.psf.result import IN_WINDOW, Psf, facts
+from p2sf.psf.result import IN_WINDOW, Psf
 from p2sf.setting import Request, Setup, set_up
 from p2sf.threads import using_threads
 

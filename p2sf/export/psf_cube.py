@@ -14,8 +14,8 @@ from p2sf.database.files.provenance import Stored
 from p2sf.database.files.stack import open_stack, read_psfs
 from p2sf.database.render import Sampling, critical_pixel_um, light_of, samples_per_pixel
 from p2sf.errors import DatabaseError
+from p2sf.figures.record import CONVENTIONS, UNITS
 from p2sf.files.writing import plain
-from p2sf.psf.record import CONVENTIONS, UNITS
 
 MOST_BYTES = 1 << 31
 DEFAULT = Sampling()

@@ -15,10 +15,10 @@ from p2sf.errors import ExportError
 from p2sf.export.fits import METRES_PER_UM, axis_keywords, write_image
 from p2sf.export.psf_set import PsfSet
 from p2sf.export.tiff import write_pages
+from p2sf.figures.record import CONVENTIONS
 from p2sf.files.writing import plain, write_beside
 from p2sf.io.fits_psf import META
 from p2sf.io.record import csv_head
-from p2sf.psf.record import CONVENTIONS
 from p2sf.version import program_version
 
 PathLike = str | os.PathLike[str]

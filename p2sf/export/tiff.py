@@ -6,8 +6,8 @@ from itertools import product
 from pathlib import Path
 
 from p2sf.export.psf_cube import Cube, PsfArray
+from p2sf.figures.record import CONVENTIONS
 from p2sf.files.writing import write_beside
-from p2sf.psf.record import CONVENTIONS
 from p2sf.version import program_version
 
 # Row 0 is the lowest y; a reader that honours the TIFF tag turns the picture up.

@@ -8,12 +8,12 @@ from typing import Any, BinaryIO
 import numpy as np
 
 from p2sf.errors import ExportError
+from p2sf.figures.record import CONVENTIONS
 from p2sf.files.atomic import DAMAGED
 from p2sf.files.reading import LONGEST_TEXT, check_unpacked, first_page, open_file, parse_json, read_arrays, size_of
 from p2sf.files.reasons import reason
 from p2sf.files.writing import write_beside
 from p2sf.io.record import caption, psf_of_file, with_facts
-from p2sf.psf.record import CONVENTIONS
 from p2sf.psf.result import Psf
 from p2sf.version import program_version
 

@@ -10,12 +10,13 @@ from typing import Any
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM, depth_of
+from p2sf.figures.psf_data import FIGURES, OWN, PsfFigures
+from p2sf.figures.record import true_of_all
 from p2sf.files.writing import plain
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import Stop, f_number
-from p2sf.psf.record import true_of_all
-from p2sf.psf.result import FIGURES, OWN, Psf, PsfFigures
+from p2sf.psf.result import Psf
 from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.raytrace.focusing import focused_vergence
 from p2sf.setting import Setup

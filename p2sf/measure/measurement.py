@@ -14,6 +14,7 @@ import numpy as np
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import Cancelled, P2SFError, RequestError
+from p2sf.figures.record import versions
 from p2sf.files.atomic import DAMAGED
 from p2sf.files.reading import parse_json, read_arrays
 from p2sf.files.writing import write_beside
@@ -39,7 +40,6 @@ from p2sf.measure.points import STRANGE, FoundPoint, find_points, in_grid, windo
 from p2sf.measure.target import Target, TargetMatch, expected_places, match_target
 from p2sf.messages import Message
 from p2sf.parameters import check_finite
-from p2sf.psf.record import versions
 from p2sf.raytrace.focusing import object_distance
 from p2sf.threads import for_each
 

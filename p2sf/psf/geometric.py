@@ -14,11 +14,12 @@ import numpy as np
 
 from p2sf.conventions import vergence, write_protect
 from p2sf.errors import GeometryError
+from p2sf.figures.psf_data import PsfFigures
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients, coefficients
-from p2sf.psf.result import Psf, PsfFigures
+from p2sf.psf.result import Psf
 from p2sf.pupil.domain import HALF, WHOLE, PupilDomain
 from p2sf.pupil.mask import PupilMask
 from p2sf.pupil.mask_nodes import throughput

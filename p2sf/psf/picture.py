@@ -6,8 +6,9 @@ from functools import partial
 import numpy as np
 
 from p2sf.conventions import centred_axis
+from p2sf.figures.psf_data import Later, PsfFigures
 from p2sf.psf.peak import Peak, peak_of
-from p2sf.psf.result import Later, Psf, PsfFigures
+from p2sf.psf.result import Psf
 from p2sf.psf.sums.plane_waves import Waves
 
 Window = tuple[int, float]

@@ -12,12 +12,13 @@ from math import ceil, inf
 import numpy as np
 
 from p2sf.errors import SamplingError
+from p2sf.figures.psf_data import Figure, Later, PsfFigures
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.psf.huygens import FRINGES_OF_SPHERES
 from p2sf.psf.methods import AUTO, REFERENCE, SPHERICAL, USUAL, PsfOptions, method_of, render, whole_pixel_um
-from p2sf.psf.result import Figure, Later, Psf, PsfFigures
+from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_samples
 from p2sf.pupil.binning import bin_samples
 from p2sf.raytrace.exit_sphere import exit_sphere

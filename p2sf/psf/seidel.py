@@ -9,12 +9,13 @@ from numpy.typing import DTypeLike
 
 from p2sf.conventions import FloatOrArray, anywhere, centred_axis
 from p2sf.errors import GeometryError, SamplingError
+from p2sf.figures.psf_data import Later, PsfFigures
 from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import steepest_polar, steepest_slope, wavefront
 from p2sf.psf.fitted import MOST_FOR_PEAK, waves_reaching
 from p2sf.psf.peak import peak_of, sampled_peak
-from p2sf.psf.result import Later, Psf, PsfFigures
+from p2sf.psf.result import Psf
 from p2sf.psf.seidel_stack import SummedStack, as_fit, corner_reach, each_of, stack_of
 from p2sf.psf.sums.plane_waves import Waves, counts_for, pupil_amplitude, window_reach_um
 from p2sf.psf.sums.seidel_sum import wave_number

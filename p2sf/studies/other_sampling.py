@@ -13,12 +13,13 @@ import numpy as np
 
 from p2sf.conventions import centred_axis
 from p2sf.errors import RequestError
+from p2sf.figures.psf_data import PsfFigures
 from p2sf.lens.lens import Lens, with_aim
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import pupils
 from p2sf.paraxial.seidel import coefficients
-from p2sf.psf.result import Psf, PsfFigures
+from p2sf.psf.result import Psf
 from p2sf.psf.seidel import fft_intensity as six_fft
 from p2sf.raytrace.pencil import Rays, displayed_opd, in_azimuth, on_sensor, pencil
 

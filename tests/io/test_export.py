@@ -11,12 +11,13 @@ import numpy as np
 import pytest
 
 from p2sf.errors import ExportError
+from p2sf.figures.psf_data import PsfFigures, facts
 from p2sf.files.writing import check_place, plain, write_beside, write_json
 from p2sf.io.psf_files import read_psf, write_psf
 from p2sf.io.psf_plot import edges_um, round_length
 from p2sf.io.record import psf_from
 from p2sf.messages import Message
-from p2sf.psf.result import Psf, PsfFigures, facts
+from p2sf.psf.result import Psf
 
 META = {"lens": {"name": "made_up"}, "setup": {"depth_mm": np.inf, "field_deg": 14.0}}
 
@@ -168,7 +169,8 @@ import matplotlib.font_manager  # it keeps a cache on disk, which is not to brea
 import numpy as np
 from p2sf.errors import ExportError
 from p2sf.io.psf_files import write_psf
-from p2sf.psf.result import PsfFigures, Psf, facts
+from p2sf.psf.result import Psf
+from p2sf.figures.psf_data import PsfFigures, facts
 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000))
 noise = np.random.default_rng(1).random((64, 64))

@@ -25,12 +25,13 @@ from p2sf.database.build import build_database
 from p2sf.database.files.npz import load_database, save_database
 from p2sf.database.space import Space
 from p2sf.errors import P2SFError
+from p2sf.figures.psf_data import PsfFigures
 from p2sf.io.photo_files import read_photo, write_photo
 from p2sf.io.psf_files import read_psf, write_psf
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml.lens import read_toml
 from p2sf.lensfile.writing import write_lens
-from p2sf.psf.result import Psf, PsfFigures
+from p2sf.psf.result import Psf
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.files import recent
 from p2sf_explorer.files.recent import remember

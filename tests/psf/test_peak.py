@@ -9,6 +9,7 @@ import pytest
 from numpy.polynomial.legendre import leggauss
 
 import p2sf
+from p2sf.figures.psf_data import PsfFigures
 from p2sf.lens.lens import with_f_number
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
@@ -17,7 +18,7 @@ from p2sf.psf import peak
 from p2sf.psf.huygens import huygens_psf, sum_rays
 from p2sf.psf.methods import render, whole_pixel_um
 from p2sf.psf.pixel_integrals import render_integrated
-from p2sf.psf.result import Psf, PsfFigures
+from p2sf.psf.result import Psf
 from p2sf.psf.seidel import seidel_psf
 from p2sf.psf.spherical import spherical_pupil
 from p2sf.psf.sums.plane_waves import BLOCK, Waves

@@ -10,6 +10,7 @@ from p2sf.database.fitted_build import build_fitted
 from p2sf.database.render import Sampling, critical_pixel_um, pixels_psf, render_source, rendered_light
 from p2sf.database.space import Space
 from p2sf.errors import GeometryError, SamplingError
+from p2sf.figures.psf_data import Later
 from p2sf.lens.lens import with_aim, with_sensor
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
@@ -17,7 +18,7 @@ from p2sf.paraxial.seidel import coefficients
 from p2sf.psf import pixel_integrals
 from p2sf.psf.methods import render
 from p2sf.psf.pixel_integrals import render_integrated, samples_across
-from p2sf.psf.result import IN_WINDOW, LEAST_LIGHT, Later
+from p2sf.psf.result import IN_WINDOW, LEAST_LIGHT
 from tests.support.pupil_sums import ray_sum
 
 

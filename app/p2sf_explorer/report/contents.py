@@ -7,6 +7,7 @@ from typing import TypeVar
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import Cancelled, P2SFError
+from p2sf.figures.record import versions
 from p2sf.lens.lens import Lens
 from p2sf.lens.misalignment import misalignments
 from p2sf.lensfile.library import find_lens
@@ -14,7 +15,6 @@ from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.messages import Message
 from p2sf.metrics.performance import PerformanceTable
 from p2sf.paraxial.pupils import f_number
-from p2sf.psf.record import versions
 from p2sf.setting import Request, explicit_values, set_up
 from p2sf_explorer.compute.caption import field_text
 from p2sf_explorer.compute.layout import Layout, layout

@@ -25,8 +25,11 @@ PLACES = {
 }
 LINK = re.compile(r"(?<=\]\()(" + "|".join(map(re.escape, PLACES)) + ")")
 # What a class of the library has from one that is not listed.
-INHERITED = {"Camera": ("    options:", "      inherited_members: [source, settings, its_lens]")}
-MORE_OF_THE_LIBRARY = "p2sf.conventions", "p2sf.errors", "p2sf.export.psf_set", "p2sf.psf.result"
+INHERITED = {
+    "Camera": ("    options:", "      inherited_members: [source, settings, its_lens]"),
+    "Psf": ("    options:", "      inherited_members: [with_figures, record, x_um, y_um]"),
+}
+MORE_OF_THE_LIBRARY = "p2sf.conventions", "p2sf.errors", "p2sf.export.psf_set", "p2sf.figures.psf_data"
 
 
 SHEETS = "sheets"  # the folder of the PDFs on the site

@@ -19,6 +19,7 @@ from p2sf.database.files.sealed import write_sealed
 from p2sf.database.points import points_of, psfs_into
 from p2sf.database.render import Database, Sampling, pixels_psf
 from p2sf.database.space import Space
+from p2sf.figures.record import versions
 from p2sf.files.writing import check_ending, plain
 from p2sf.glass.media import Medium
 from p2sf.glass.pages import data_version
@@ -31,7 +32,6 @@ from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import Stop, find_stop
 from p2sf.paraxial.seidel import Coefficients
-from p2sf.psf.record import versions
 from p2sf.psf.result import Psf, warn_of_window
 from p2sf.psf.seidel import check_samples
 from p2sf.pupil.mask import PupilMask

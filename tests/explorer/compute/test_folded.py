@@ -6,6 +6,7 @@ from dataclasses import fields, is_dataclass
 import numpy as np
 import pytest
 
+from p2sf.figures.psf_data import Later
 from p2sf.lens.lens import Lens
 from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement
@@ -13,7 +14,6 @@ from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.messages import Message
-from p2sf.psf.result import Later
 from p2sf.raytrace.pencil import pencil
 from p2sf_explorer.compute.live import Live, live
 from p2sf_explorer.compute.setup import default_state
