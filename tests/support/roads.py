@@ -199,9 +199,10 @@ class Window:
 
     def close(self) -> None:
         """End the panels' threads."""
+        from p2sf_explorer.panels import end_work
+
         for panel in self.panels.values():
-            if hasattr(panel, "stop"):
-                panel.stop()
+            end_work(panel)
 
     def shown(self, at: Point, method: str, frequency_per_mm: np.ndarray) -> Iterator[Shown]:
         """Yield what panels print where the state has a method; those of rays once, with the method "traced"."""
@@ -239,6 +240,7 @@ class Window:
         from p2sf_explorer.compute.live import Refused, with_views
         from p2sf_explorer.panels import build
         from p2sf_explorer.state.panels import REGISTRY, view_of
+        from p2sf_explorer.store.late_answers import LateAnswers
         from p2sf_explorer.store.store import Store
 
         entry = next(entry for entry in REGISTRY if entry.key == key)
@@ -251,7 +253,7 @@ class Window:
             self.panels[key].restyle(self.theme)
         made = self.panels[key]
         made.show(answer)
-        while (asking := getattr(made, "asking", None)) and asking.worker.busy:
+        while any(late.busy for late in made.widget.findChildren(LateAnswers)):
             self.app.processEvents()
         return made
 

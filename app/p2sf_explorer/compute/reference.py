@@ -6,7 +6,6 @@ The reference is the Huygens sum, or that of spherical waves where plane ones wo
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from statistics import median
-from threading import Event
 
 from p2sf.errors import SamplingError
 from p2sf.psf.compare import r_squared, relative_l2
@@ -51,7 +50,9 @@ class Accuracy:
     results: tuple[MethodResult, ...] = ()
 
 
-def measure(live: Live, every_method: bool, cancelled: Event, progress: Callable[[float], None]) -> Accuracy:
+def measure(
+    live: Live, every_method: bool, cancelled: Callable[[], bool], progress: Callable[[float], None]
+) -> Accuracy:
     """Return the accuracy of an answer, or of ``every_method`` beside it. Raises P2SFError, Cancelled among them."""
     if live.setup.altered:
         raise SamplingError(NO_REFERENCE)
@@ -63,7 +64,7 @@ def measure(live: Live, every_method: bool, cancelled: Event, progress: Callable
         reference_pupil(live.setup.lens, live.setup.source, live.state.optics.clip),
         window,
         REFERENCE_TOLERANCE,
-        Watch(lambda part: progress(share * part), cancelled.is_set),
+        Watch(lambda part: progress(share * part), cancelled),
     )
     shown = in_window(live, reference)
     results: tuple[MethodResult, ...] = ()
@@ -89,11 +90,11 @@ def in_window(live: Live, reference: Psf) -> Psf:
 
 
 def method_results(
-    live: Live, reference: Psf, cancelled: Event, progress: Callable[[float], None]
+    live: Live, reference: Psf, cancelled: Callable[[], bool], progress: Callable[[float], None]
 ) -> Iterator[MethodResult]:
     """Yield every method's error and time at this point, until cancelled."""
     for number, method in enumerate(METHODS):
-        if cancelled.is_set():
+        if cancelled():
             return
         psfs = [psf_by(method.name, live, reference) for _ in range(REPEATS if method.whole else 1)]
         psf, milliseconds = psfs[-1], 1e3 * median(p.seconds for p in psfs)

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from functools import lru_cache
-from threading import Event
 from typing import TYPE_CHECKING, SupportsFloat
 
 import numpy as np
@@ -114,7 +113,7 @@ def r_squared(state: State) -> float:
     """Return R² of the picture against the Huygens sum in the window of the picture, as the Accuracy panel does."""
     from p2sf_explorer.compute.reference import measure
 
-    return measure(_live(state), False, Event(), lambda part: None).r_squared
+    return measure(_live(state), False, lambda: False, lambda part: None).r_squared
 
 
 def r_squared_narrow(state: State) -> float:

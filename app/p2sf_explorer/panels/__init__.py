@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QToolButton
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.state.panels import PanelEntry, resolve
+from p2sf_explorer.store.late_answers import LateAnswers
 from p2sf_explorer.store.panel_store import PanelStore
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
@@ -38,7 +39,7 @@ class Panel(Protocol):
 
 @runtime_checkable
 class BackgroundPanel(Panel, Protocol):
-    """A panel with threads, processes or graphics memory of its own, which it gives up with the window."""
+    """A panel with processes or graphics memory of its own, which it gives up with the window."""
 
     def stop(self) -> None:
         """End the background work for good."""
@@ -67,3 +68,11 @@ def build(entry: PanelEntry, store: Store, side: str = "") -> Panel:
     made: Panel = resolve(f"panels.{entry.panel}")(own)
     own.setParent(made.widget)
     return made
+
+
+def end_work(panel: Panel) -> None:
+    """End the background work of a panel for good."""
+    if isinstance(panel, BackgroundPanel):
+        panel.stop()
+    for late in panel.widget.findChildren(LateAnswers):
+        late.stop()

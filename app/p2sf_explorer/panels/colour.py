@@ -17,7 +17,7 @@ from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.views.colour import CHOICES, ColourQuestion, Colours, answer, pixels, smooth_colours
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.scales import with_sign
-from p2sf_explorer.store.panel_jobs import Asking
+from p2sf_explorer.store.late_answers import LateAnswers
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import chooser, select
 from p2sf_explorer.widgets.chart_card import ChartsCard
@@ -100,7 +100,7 @@ class ColourPanel:
         self.widget.add_tool(self.typed)
         self.choice.activated.connect(self._choose)
         self.typed.committed.connect(self._type)
-        self.asking = Asking(self.widget, answer, self._paint, self.widget.set_readout)
+        self.late = LateAnswers(self.widget, answer, self._paint, self.widget.set_readout)
         self.found: tuple[ColourQuestion, Colours] | None = None
         self._scale = "sqrt"
 
@@ -114,12 +114,12 @@ class ColourPanel:
         changed, self._scale = scale != self._scale, scale
         asked: ColourQuestion | Message = live.views["colour"]
         if isinstance(asked, Message):
-            self.asking.refuse(asked)
+            self.late.refuse(asked)
             return
         self._airy_um = live.airy_radius_um
-        self.asking.ask(asked)
+        self.late.ask(asked)
         if changed:
-            self.asking.again()
+            self.late.again()
 
     def _paint(self, asked: ColourQuestion, found: Colours) -> str:
         self.found = asked, found
@@ -150,7 +150,3 @@ class ColourPanel:
         """Take the colours of a theme."""
         for chart in (self.picture, self.spectrum):
             chart.restyle(theme)
-
-    def stop(self) -> None:
-        """End the worker's thread."""
-        self.asking.worker.stop()

@@ -13,7 +13,7 @@ from p2sf_explorer.compute.framing import crop
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.views.field_map import FieldMapRequest, answer, place_of
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.store.panel_jobs import Asking
+from p2sf_explorer.store.late_answers import LateAnswers
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.tiles import TilesChart, tile
@@ -167,7 +167,7 @@ class FieldMapPanel:
         self.widget = Card("Field map", TIP)
         self.chart = MapChart(store)
         self.widget.set_body(self.chart)
-        self.asking = Asking(self.widget, answer, self._paint, self.widget.set_readout)
+        self.late = LateAnswers(self.widget, answer, self._paint, self.widget.set_readout)
         self.chart.resized.connect(self._ask)
         self.found: tuple[FieldMapRequest, np.ndarray] | None = None
         self._wanted: FieldMapRequest | None = None
@@ -180,12 +180,12 @@ class FieldMapPanel:
         changed, self._scale = live.state.display.psf_scale != self._scale, live.state.display.psf_scale
         self._ask()
         if changed:
-            self.asking.again()
+            self.late.again()
 
     def _ask(self) -> None:
         """Ask for the map as the room of the panel lies or stands."""
         if self._wanted:
-            self.asking.ask(replace(self._wanted, upright=self.chart.height() > self.chart.width()))
+            self.late.ask(replace(self._wanted, upright=self.chart.height() > self.chart.width()))
 
     def _paint(self, asked: FieldMapRequest, found: np.ndarray) -> str:
         self.found = asked, found
@@ -219,7 +219,3 @@ class FieldMapPanel:
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
         self.chart.restyle(theme)
-
-    def stop(self) -> None:
-        """End the worker's thread."""
-        self.asking.worker.stop()

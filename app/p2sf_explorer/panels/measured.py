@@ -45,8 +45,8 @@ from p2sf_explorer.files.asking import ask_path
 from p2sf_explorer.files.recent import recent_path
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import local, tr
+from p2sf_explorer.store.late_answers import LateAnswers
 from p2sf_explorer.store.store import Store
-from p2sf_explorer.store.worker import LatestWins
 from p2sf_explorer.widgets.card import Card, chooser
 from p2sf_explorer.widgets.drop import MeasuredDrop
 from p2sf_explorer.widgets.empty_state import EmptyState
@@ -108,7 +108,7 @@ class MeasuredPanel:
         self._request: MeasurementRequest | None = None
         self._found: Measurement | None = None
         self._refusal, self._stopped, self._begun = "", False, 0.0
-        self.worker = LatestWins(self.widget)
+        self.worker = LateAnswers(self.widget)
         self._connect()
         self._show_readout()
 
@@ -323,10 +323,6 @@ class MeasuredPanel:
         """Take the colours of a theme."""
         for part in (self.chart, self.list, self.table):
             part.restyle(theme)
-
-    def stop(self) -> None:
-        """End the worker's thread."""
-        self.worker.stop()
 
 
 def _row(parts: Sequence[QWidget]) -> QHBoxLayout:

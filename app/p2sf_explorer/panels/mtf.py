@@ -10,7 +10,7 @@ from p2sf_explorer.compute.measured import MeasureRequest
 from p2sf_explorer.compute.views.mtf import Contrast, answer
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.store.panel_jobs import Asking
+from p2sf_explorer.store.late_answers import LateAnswers
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.chart_card import legend
 from p2sf_explorer.widgets.curves import CLEAR_PUPIL, SAME_PUPIL, CurvesPanel
@@ -38,7 +38,7 @@ class MtfPanel(CurvesPanel):
         super().__init__("MTF", TIP, ("frequency on the sensor, 1/mm", "contrast"), LOOKS)
         self.pixel = MicronEdit(store, "pixel_um", "Pixel", PIXEL_TIP, self.widget)
         self.widget.add_tool(self.pixel)
-        self.asking = Asking(self.widget, answer, self._paint, self._say)
+        self.late = LateAnswers(self.widget, answer, self._paint, self._say)
         self._live: Live | None = None
         self._theme: Tokens | None = None
         self._masked = False
@@ -50,9 +50,9 @@ class MtfPanel(CurvesPanel):
         self.curves["perfect lens"].name = tr(SAME_PUPIL if self._masked else "perfect lens")
         view: Contrast | MeasureRequest = live.views["mtf"]
         if isinstance(view, MeasureRequest):
-            self.asking.ask(view)
+            self.late.ask(view)
             return
-        self.asking.forget()
+        self.late.forget()
         self._say(said(self._paint(None, view)))
 
     def _say(self, text: str) -> None:
@@ -81,10 +81,6 @@ class MtfPanel(CurvesPanel):
         looks = {name: token for name, (token, _) in LOOKS.items() if name != CLEAR_PUPIL or self._masked}
         perfect = SAME_PUPIL if self._masked else "perfect lens"
         return legend({perfect if name == "perfect lens" else name: token for name, token in looks.items()}, theme)
-
-    def stop(self) -> None:
-        """End the worker's thread."""
-        self.asking.worker.stop()
 
     def _mark(self, pixel_um: float) -> None:
         """Mark the sensor's Nyquist frequency, with its name at the upper edge."""

@@ -20,7 +20,7 @@ from p2sf_explorer.compute.matrix.overlays import (
 from p2sf_explorer.i18n.messages import WINDOW, said
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.limits import MOST_FIELDS
-from p2sf_explorer.store.panel_jobs import Asking
+from p2sf_explorer.store.late_answers import LateAnswers
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import SideCard, chooser
 from p2sf_explorer.widgets.chart_card import NotedChart, curve_sign, reach
@@ -76,7 +76,7 @@ class OverlaysPanel:
         self.widget.add_line(self.note)
         self.widget.side.addStretch(1)
         self.widget.set_body(self.chart)
-        self.asking = Asking(self.widget, answer, self._take, self._say)
+        self.late = LateAnswers(self.widget, answer, self._take, self._say)
         self.found: tuple[OverlayRequest | None, CurveOverlay] | None = None
         self._live: Live | None = None
         self._theme = LIGHT
@@ -91,11 +91,11 @@ class OverlaysPanel:
         self.fields.setVisible(live.state.curves.of in ("fields", "transmission_of_colours"))
         self.fields.show_fields(compared_fields(live.state))
         if isinstance(view, CurveOverlay):
-            self.asking.forget()
+            self.late.forget()
             self._paint(None, view)
             self._say("")
             return
-        (self.asking.ask if live.quality == "settled" else self.asking.ask_when_held)(view)
+        (self.late.ask if live.quality == "settled" else self.late.ask_when_held)(view)
         if self.found and isinstance(self.found[0], OverlayRequest) and self.found[0].of == view.of:
             self._mark()
 
@@ -162,10 +162,6 @@ class OverlaysPanel:
         self.note.restyle(theme)
         if self.found:
             self._show_legend(self.found[1])
-
-    def stop(self) -> None:
-        """End the worker's thread."""
-        self.asking.worker.stop()
 
 
 def up_range(found: CurveOverlay) -> tuple[float, float]:

@@ -9,7 +9,7 @@ from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.views.performance import PerformanceRequest, answer
 from p2sf_explorer.i18n.messages import WINDOW, said
-from p2sf_explorer.store.panel_jobs import Asking
+from p2sf_explorer.store.late_answers import LateAnswers
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.compared_lists import FieldList, FrequencyList
@@ -70,7 +70,7 @@ class PerformancePanel:
         for tool in (self.fields, self.frequencies, self.copy):
             self.widget.add_tool(tool)
         self.widget.set_body(self.table)
-        self.asking = Asking(self.widget, answer, self._paint, self.widget.set_readout)
+        self.late = LateAnswers(self.widget, answer, self._paint, self.widget.set_readout)
         self._live: Live | None = None
         self._shown: PerformanceRequest | None = None
         self.table.taken.connect(self._go)
@@ -82,16 +82,12 @@ class PerformancePanel:
         self.fields.show_fields(request.fields_deg)
         self.frequencies.show_frequencies(request.frequency_per_mm)
         if live.quality == "settled":
-            self.asking.ask(request)
+            self.late.ask(request)
         self._mark()
 
     def restyle(self, theme: Tokens) -> None:
         """Take the scale of a theme."""
         self.table.restyle(theme)
-
-    def stop(self) -> None:
-        """End the worker's thread."""
-        self.asking.worker.stop()
 
     def _paint(self, request: PerformanceRequest, table: PerformanceTable) -> Message | str:
         self._shown = request

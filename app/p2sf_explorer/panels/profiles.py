@@ -9,7 +9,7 @@ from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.views.profiles import ProfileCurves, answer
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr
-from p2sf_explorer.store.panel_jobs import Asking
+from p2sf_explorer.store.late_answers import LateAnswers
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.chart_card import TurningRow
 from p2sf_explorer.widgets.curves import CLEAR_PUPIL, SAME_PUPIL, CurvesPanel
@@ -34,7 +34,7 @@ class ProfilesPanel(CurvesPanel):
         self.within = self.energy.add_curve("third", 2)
         self.clear.name, self.perfect.name, self.within.name = tr(CLEAR_PUPIL), tr("perfect lens"), tr("this lens")
         self.widget.set_body(TurningRow((self.chart, self.energy), (5, 3), self.widget))
-        self.asking = Asking(self.widget, answer, self._paint, self._say)
+        self.late = LateAnswers(self.widget, answer, self._paint, self._say)
         self._live: Live | None = None
         self._legend = ""
 
@@ -46,9 +46,9 @@ class ProfilesPanel(CurvesPanel):
         self.within.set_data((), ())
         self.energy.update()
         if view.pending and not live.pending:
-            self.asking.ask(view)
+            self.late.ask(view)
             return
-        self.asking.forget()
+        self.late.forget()
         if view.pending:  # behind the picture, which is told of first: each of the two takes half a gigabyte
             self._say(tr("working"))
             return
@@ -97,7 +97,3 @@ class ProfilesPanel(CurvesPanel):
         self._legend = self.legend(theme)
         self.energy.restyle(theme)
         super().restyle(theme)
-
-    def stop(self) -> None:
-        """End the worker's thread."""
-        self.asking.worker.stop()

@@ -21,7 +21,7 @@ from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.scales import significant, written_r_squared
 from p2sf_explorer.state.state import State
 from p2sf_explorer.state.terms import FILLED
-from p2sf_explorer.store.panel_jobs import Asking
+from p2sf_explorer.store.late_answers import LateAnswers
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card, chooser
 from p2sf_explorer.widgets.differences import show_signed
@@ -69,7 +69,7 @@ class PsfPanel:
         self._times: dict[str, str] = {}
         self._live: Live | None = None
         self._finer = SumCache()
-        self.asking = Asking(self.widget, answer, self._take, lambda text: None)
+        self.late = LateAnswers(self.widget, answer, self._take, lambda text: None)
         self._settled = QTimer(self.widget, singleShot=True, interval=RESIZED_MS)
         self._settled.timeout.connect(self._on_resized)
         self.map.resized.connect(self._settled.start)
@@ -87,9 +87,9 @@ class PsfPanel:
         wanted = self._finer_request(live)
         self._paint(live, self.psf_shown(live))
         if wanted is None:
-            self.asking.refuse(NOTHING_FINER)
+            self.late.refuse(NOTHING_FINER)
         elif self._finer.get(wanted) is None:
-            self.asking.ask(wanted)
+            self.late.ask(wanted)
 
     def psf_shown(self, live: Live) -> Psf:
         """Return the PSF as it is painted: summed again where the first one is too coarse or ends within the view."""
@@ -112,10 +112,6 @@ class PsfPanel:
     def _on_resized(self) -> None:
         if self._live and self._live.quality == "settled":
             self._refine(self._live)  # the badge keeps the R² that is measured
-
-    def stop(self) -> None:
-        """End the background work for good."""
-        self.asking.worker.stop()
 
     def _paint(self, live: Live, psf: Psf) -> None:
         state = live.state

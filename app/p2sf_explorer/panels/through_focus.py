@@ -16,7 +16,7 @@ from p2sf_explorer.compute.setup import ranges
 from p2sf_explorer.compute.views.through_focus import Focused, Strip, answer
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.scales import with_sign
-from p2sf_explorer.store.panel_jobs import Asking
+from p2sf_explorer.store.late_answers import LateAnswers
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.chart_card import NOTE_PX
@@ -130,7 +130,7 @@ class ThroughFocusPanel:
         self.widget = Card("Through focus", TIP)
         self.chart = StripChart(store)
         self.widget.set_body(self.chart)
-        self.asking = Asking(self.widget, answer, self._paint, self.widget.set_readout)
+        self.late = LateAnswers(self.widget, answer, self._paint, self.widget.set_readout)
         self.found: tuple[Strip, Focused] | None = None
         self._scale = "sqrt"
 
@@ -140,16 +140,16 @@ class ThroughFocusPanel:
         scale = live.state.display.psf_scale
         if scale != self._scale:
             self._scale = scale
-            self.asking.again()
+            self.late.again()
         self.chart.show_sensor(live.state.optics.sensor_shift_um)
         if isinstance(asked, Message):
             half = ranges(live.setup.prescription).shift_um
             self.chart.set_range((-half, half), (0.0, 1.0))
             self.chart.show_tiles((), 1.0)
             self.chart.show_notes([])
-            self.asking.refuse(asked)
+            self.late.refuse(asked)
             return
-        self.asking.ask(asked)
+        self.late.ask(asked)
 
     def _paint(self, asked: Strip, found: Focused) -> str:
         self.found = asked, found
@@ -176,7 +176,3 @@ class ThroughFocusPanel:
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
         self.chart.restyle(theme)
-
-    def stop(self) -> None:
-        """End the worker's thread."""
-        self.asking.worker.stop()

@@ -14,8 +14,8 @@ from p2sf_explorer.playback.film import FilmFrame, FrameQueue, check_film, write
 from p2sf_explorer.playback.sweep import TITLES, Moment, SliderSweep, changes, sweep
 from p2sf_explorer.state.pinning import with_links
 from p2sf_explorer.state.state import State, change
+from p2sf_explorer.store.late_answers import LateAnswers
 from p2sf_explorer.store.store import Store
-from p2sf_explorer.store.worker import LatestWins
 
 FRAMES_PER_S = 12
 TICK_MS = 4  # between looks at what is being computed
@@ -43,7 +43,7 @@ class Filming(QObject):
     ) -> None:
         super().__init__(parent)
         self._store, self._show, self._busy_panels, self._pause_accuracy = store, show, busy_panels, pause_accuracy
-        self._worker = LatestWins(self)
+        self._worker = LateAnswers(self)
         self._worker.finished.connect(lambda key, paths: self._end(files_message(paths)))
         self._worker.failed.connect(lambda key, error: self._end(error))
         self._timer = QTimer(self)

@@ -1,8 +1,7 @@
 """Measures every settled picture against the Huygens reference in the background, for the panels that show it."""
 
 from collections.abc import Callable
-from functools import partial
-from threading import Event
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 from PySide6.QtCore import QObject
@@ -12,7 +11,7 @@ from p2sf_explorer.compute.live import Live
 from p2sf_explorer.state.state import State
 from p2sf_explorer.state.what_if import NO_REFERENCE
 from p2sf_explorer.state.workspaces import on_show
-from p2sf_explorer.store.worker import LatestWins
+from p2sf_explorer.store.late_answers import LateAnswers, Tell
 
 if TYPE_CHECKING:
     from p2sf_explorer.compute.reference import Accuracy
@@ -39,8 +38,17 @@ class AccuracyDisplay(Protocol):
         """Show how far the measuring is, 0 to 1."""
 
 
+@dataclass(frozen=True)
+class AccuracyQuestion:
+    """What R² of a settled picture depends on, and whether every method's is wanted."""
+
+    picture: tuple
+    every_method: bool
+    live: Live = field(compare=False)
+
+
 class LiveAccuracy(QObject):
-    """Owns the worker; ``watch`` is called with every answer, and with None where there is none.
+    """Has every settled picture measured; ``watch`` is called with every answer, and with None where there is none.
 
     ``display()`` is the panel that shows the accuracy, None before it was first opened.
     """
@@ -57,39 +65,37 @@ class LiveAccuracy(QObject):
         self._show_badge, self._display = show_badge, display
         self._live: Live | None = None
         self._last: Accuracy | None = None
-        self.worker = LatestWins(self)
-        self.worker.finished.connect(self._on_finished)
-        self.worker.failed.connect(self._on_failed)
-        self.worker.progressed.connect(self._on_progress)
+        self.late = LateAnswers(self, _measured)
+        self.late.finished.connect(self._on_finished)
+        self.late.failed.connect(self._on_failed)
+        self.late.progressed.connect(lambda _, part: self._show(lambda panel: panel.show_progress(part)))
 
     def rest(self, resting: bool) -> None:
         """Measure nothing while ``resting``: the pictures are for a film."""
         self._resting = resting
 
     def watch(self, live: Live | None) -> None:
-        """Measure a settled answer that stands in for no other."""
+        """Measure a settled answer that stands in for no other; none of an altered lens, which has no reference."""
         self._live = live
         if live is None or not self._enabled or self._resting or live.quality != "settled" or live.pending:
             return
-        if live.setup.altered:
-            self._refuse_altered(live)
-            return
         every_method = asked_for(live.state)
-        if self._last and fits(self._last, live, every_method):
+        if live.setup.altered:
+            self.late.forget()
+            self._show_badge(live, None)
+            self._show(lambda panel: panel.show_failure(Message(NO_REFERENCE)))
+        elif self._last and fits(self._last, live, every_method):
             self._tell(self._last)
-            return
-        self.worker.submit(live, partial(_measured, live, every_method))
+        else:
+            self.late.ask(AccuracyQuestion(picture(live), every_method, live))
 
-    def _refuse_altered(self, live: Live) -> None:
-        """Show no figure: the reference is the lens's, and this picture is not."""
-        self.worker.cancel()
-        self._show_badge(live, None)
-        if display := self._display_on_show():
-            display.show_failure(Message(NO_REFERENCE))
-
-    def _on_finished(self, key: Live, accuracy: "Accuracy") -> None:
+    def _on_finished(self, _: AccuracyQuestion, accuracy: "Accuracy") -> None:
         self._last = accuracy
         self._tell(accuracy)
+
+    def _on_failed(self, _: AccuracyQuestion, message: Message) -> None:
+        self._show(lambda panel: panel.show_failure(message))
+        self.late.forget()  # so that it is said again of this picture
 
     def _tell(self, accuracy: "Accuracy") -> None:
         live = self._live
@@ -98,23 +104,12 @@ class LiveAccuracy(QObject):
         stale = not fits(accuracy, live, False) or live.quality != "settled" or live.pending is not None
         if not stale:
             self._show_badge(live, accuracy.r_squared, accuracy.reference.method)
-        if display := self._display_on_show():
-            display.show_accuracy(accuracy, stale)
+        self._show(lambda panel: panel.show_accuracy(accuracy, stale))
 
-    def _on_failed(self, key: Live, message: Message) -> None:
-        if display := self._display_on_show():
-            display.show_failure(message)
-
-    def _on_progress(self, key: Live, part: float) -> None:
-        if display := self._display_on_show():
-            display.show_progress(part)
-
-    def _display_on_show(self) -> AccuracyDisplay | None:
-        return self._display() if self._live and asked_for(self._live.state) else None
-
-    def stop(self) -> None:
-        """End the worker's thread."""
-        self.worker.stop()
+    def _show(self, what: Callable[[AccuracyDisplay], None]) -> None:
+        """Have the panel show something where it is on show."""
+        if self._live and asked_for(self._live.state) and (panel := self._display()):
+            what(panel)
 
 
 def asked_for(state: State) -> bool:
@@ -122,11 +117,11 @@ def asked_for(state: State) -> bool:
     return "accuracy" in on_show(state.display)
 
 
-def _measured(live: Live, every_method: bool, cancelled: Event, progress: Callable[[float], None]) -> "Accuracy":
+def _measured(question: AccuracyQuestion, stopped: Callable[[], bool], tell: Tell) -> "Accuracy":
     """Measure an answer in the background, where what measures is loaded too."""
     from p2sf_explorer.compute.reference import measure
 
-    return measure(live, every_method, cancelled, progress)
+    return measure(question.live, question.every_method, stopped, tell)
 
 
 def fits(known: "Accuracy", live: Live, every_method: bool) -> bool:

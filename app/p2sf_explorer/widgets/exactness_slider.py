@@ -12,8 +12,8 @@ from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.state.scales import significant
 from p2sf_explorer.state.state import State
+from p2sf_explorer.store.late_answers import LateAnswers
 from p2sf_explorer.store.store import Store
-from p2sf_explorer.store.worker import LatestWins
 from p2sf_explorer.widgets.card import chooser, paint_chevron, select
 from p2sf_explorer.widgets.slider import STEPS, Slider
 from p2sf_explorer.widgets.trade_chart import TradeChart, TradeDot
@@ -97,7 +97,7 @@ class ExactnessPanel(QFrame):
         self.slider = Slider(self)
         self.slider.setAccessibleName(tr("From fast to exact"))
         self.asked, self.costing, self.given, self.typical = (QLabel(self) for _ in range(4))
-        self.worker = LatestWins(self)
+        self.worker = LateAnswers(self)
         self.worker.finished.connect(self._on_costs)
         self._lay_out()
         self.measure.activated.connect(lambda: store.update(exactness_measure=self.measure.currentData()))

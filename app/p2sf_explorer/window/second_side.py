@@ -4,10 +4,9 @@ from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QWidget
 
 from p2sf_explorer.charts.theme import Tokens
-from p2sf_explorer.panels import BackgroundPanel, Panel, build
+from p2sf_explorer.panels import Panel, build, end_work
 from p2sf_explorer.state.panels import PANELS
 from p2sf_explorer.store.store import Store
-from p2sf_explorer.store.worker import LatestWins
 from p2sf_explorer.window.stage import PanelPlace
 
 
@@ -60,10 +59,7 @@ class SecondSide(QObject):
         gone, first, self.panel, self._first, self._theme = self.panel, self._first, None, None, None
         if gone is None or first is None:
             return
-        if isinstance(gone, BackgroundPanel):
-            gone.stop()
-        for worker in gone.widget.findChildren(LatestWins):
-            worker.stop()
+        end_work(gone)
         part(first)
         gone.widget.hide()
         gone.widget.deleteLater()

@@ -26,13 +26,14 @@ from p2sf_explorer.compare.compare_bar import CompareBar
 from p2sf_explorer.compare.comparison import Answers, answers
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.caption import caption
+from p2sf_explorer.compute.deferred_sums import Found, Request, SumCache, answer_to
 from p2sf_explorer.compute.live import Live, Refused
 from p2sf_explorer.course.course import Course
 from p2sf_explorer.files.file_watcher import FileWatcher
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.lessons.controller import LessonController, LessonRoom
 from p2sf_explorer.lessons.hall import Hall
-from p2sf_explorer.panels import BackgroundPanel, FilmedPanel, Panel, PreparingPanel, build
+from p2sf_explorer.panels import FilmedPanel, Panel, PreparingPanel, build, end_work
 from p2sf_explorer.panels.coefficients.panel import CoefficientsPanel
 from p2sf_explorer.panels.psf import PsfPanel
 from p2sf_explorer.playback.filming import Filming
@@ -42,10 +43,9 @@ from p2sf_explorer.state.link import is_link
 from p2sf_explorer.state.panels import PANELS, REGISTRY, view_of
 from p2sf_explorer.state.state import Display, State
 from p2sf_explorer.state.workspaces import exchange, kept_in_rail, on_show, on_stage, place_panels, put_to_tabs
-from p2sf_explorer.store.deferred import DeferredWorker
+from p2sf_explorer.store.late_answers import LateAnswers
 from p2sf_explorer.store.live_accuracy import AccuracyDisplay, LiveAccuracy, asked_for
 from p2sf_explorer.store.store import Store
-from p2sf_explorer.store.worker import LatestWins
 from p2sf_explorer.widgets.caption import Caption
 from p2sf_explorer.widgets.drop import DropFrame, dropped_path, is_photo
 from p2sf_explorer.widgets.roles import install_roles
@@ -123,7 +123,10 @@ class MainWindow(QMainWindow):
     def _make_helpers(self, measured: bool) -> None:
         """Make what works for the window in the background, and the commands."""
         self.measuring = LiveAccuracy(self._panel("psf", PsfPanel).show_badge, self._accuracy_panel, self, measured)
-        self.deferred = DeferredWorker(self.store, self.refresh, self)
+        self.sums, self._shown = SumCache(), self.store.state
+        self.late_sums = LateAnswers(self, lambda request, stopped, _: answer_to(request, stopped))
+        self.late_sums.finished.connect(self._on_sum)
+        self.late_sums.failed.connect(self._on_sum)
         self.memory_trim, self.sharing = MemoryTrim(self), Sharing(self.store, self)
         self.drop_frame = DropFrame(self)
         self.file_watcher = FileWatcher(self.store, self._read_again, self)
@@ -248,7 +251,7 @@ class MainWindow(QMainWindow):
             paint(self.panels[key], key, live)
         self._show_second(self._answers.beside)
         self.status.show_live(live, self.frame_ms)
-        self.deferred.watch(state, self._answers.pending)
+        self._sum(state, self._answers.pending)
         self.measuring.watch(live)
         QTimer.singleShot(0, lambda: self._on_painted(begun))
 
@@ -268,7 +271,7 @@ class MainWindow(QMainWindow):
         if self.live and self._answers and self._answers.a.state == state:
             return  # only the lens file has changed, and is perhaps half written: the picture stays
         self.live = None
-        self.deferred.watch(state, None)
+        self._sum(state, None)
         self.measuring.watch(None)
         self.controls.show_none()
         self.caption.show_parts({}, state.display.caption, False)
@@ -289,7 +292,23 @@ class MainWindow(QMainWindow):
     def _answer(self, state: State) -> Answers:
         """Return the settled answers, or while a slider moves previews by the methods that ``auto`` had chosen."""
         quality = "preview" if self.store.moving else "settled"
-        return answers(state, quality, self._wanted_views(), self._answers, self.deferred.cache)
+        return answers(state, quality, self._wanted_views(), self._answers, self.sums)
+
+    def _sum(self, state: State, pending: Request | None) -> None:
+        """Have the sum that a state's picture waits for computed in the background, and no other."""
+        self._shown = state
+        if pending != self.late_sums.asked:
+            self.late_sums.forget()
+        if pending:
+            self.late_sums.ask(pending)
+
+    def _on_sum(self, request: Request, found: Found) -> None:
+        """Keep what was found, or why nothing was, so that it is not asked again, and show the state anew."""
+        self.sums.keep(request, found)
+        if request == self.late_sums.asked:
+            self.refresh(self._shown)
+            if isinstance(found, Message):
+                self.refuse(found)
 
     def refuse(self, why: Message | P2SFError) -> None:
         """Say in the banner why something cannot be done; the last picture stays."""
@@ -357,10 +376,9 @@ class MainWindow(QMainWindow):
     def is_busy(self) -> bool:
         """Return whether anything is still computed in the background."""
         panels = *self.panels.values(), *filter(None, (self.second.panel,))
-        workers = [worker for panel in panels for worker in panel.widget.findChildren(LatestWins)]
-        own = self.measuring.worker, self.deferred.worker
+        late = [late for panel in panels for late in panel.widget.findChildren(LateAnswers)]
         preparing = any(isinstance(panel, PreparingPanel) and panel.busy for panel in panels)
-        return preparing or any(worker.busy for worker in (*workers, *own))
+        return preparing or any(answers.busy for answers in (*late, self.measuring.late, self.late_sums))
 
     def _panel(self, key: str, kind: type[T]) -> T:
         """Return a panel as its own type."""
@@ -549,14 +567,13 @@ class MainWindow(QMainWindow):
         self.teaching.stop()
         self.course.stop()
         self.top.tolerance.stop()
-        self.measuring.stop()
-        self.deferred.stop()
+        self.measuring.late.stop()
+        self.late_sums.stop()
         self.memory_trim.stop()
         self.floating.stop()
         self.second.stop()
         for panel in self.panels.values():
-            if isinstance(panel, BackgroundPanel):
-                panel.stop()
+            end_work(panel)
         super().closeEvent(event)
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:

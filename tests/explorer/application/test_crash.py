@@ -20,7 +20,7 @@ from p2sf_explorer.compute.setup import first_state
 from p2sf_explorer.files.session import keep_session, last_session, rescued_sessions, session_path
 from p2sf_explorer.files.session_keeper import RunMark, SessionKeeper
 from p2sf_explorer.state.state import State, new_state
-from p2sf_explorer.store.worker import LatestWins
+from p2sf_explorer.store.late_answers import LateAnswers
 
 ROOT = Path(__file__).parents[3]
 HIS_FILE = "secret.zmx"
@@ -85,7 +85,7 @@ def test_a_window_that_cannot_be_saved_says_so(window, errors):
 
 
 def test_an_error_in_a_worker_is_told_and_the_next_job_runs(window, errors, qtbot):
-    worker, heard = LatestWins(window), []
+    worker, heard = LateAnswers(window), []
     worker.finished.connect(lambda key, result: heard.append(result))
     worker.submit(1, lambda cancelled, tell: {}["worker"])
     qtbot.waitUntil(lambda: errors.dialog is not None)

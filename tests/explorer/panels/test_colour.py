@@ -89,7 +89,7 @@ def panel(window, qtbot):
 
 def filled(made, qtbot):
     settled(made, qtbot)
-    assert made.found[0] == made.asking.asked
+    assert made.found[0] == made.late.asked
 
 
 def test_choosing_and_typing_a_spectrum(window, panel, qtbot):
@@ -128,7 +128,7 @@ def test_a_refused_spectrum_says_so_until_there_is_a_picture_again(window, panel
     """What was on its way when the spectrum was refused must not talk over the refusal, and the way back is open."""
     words = panel.widget.readout.text()
     window.store.update(f_number=11.0)
-    assert panel.asking.worker.busy
+    assert panel.late.busy
     window.store.update(spectrum="lines:200")
     refusal = panel.widget.readout.text()
     assert "200" in refusal and refusal != words

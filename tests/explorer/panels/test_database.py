@@ -231,12 +231,12 @@ def test_maps_beside_the_stage_can_be_read(window, panel):
 
 
 def test_a_lens_without_maps_says_why_and_offers_one_with_maps(window, panel, qtbot):
-    panel.worker.failed.emit(panel._asked, Message("no ray of this lens arrives"))
+    panel.late._runner.failed.emit(panel.late.asked, Message("no ray of this lens arrives"))
     assert panel.empty.isVisible() and not panel.body.isVisible()
     assert "no ray of this lens arrives" in panel.empty.words.text().lower()
     panel._show_sample()
     assert window.store.state.optics.lens == "cooke_triplet"
     qtbot.waitUntil(lambda: panel.body.isVisible() and not panel._stale())
     window.store.undo()
-    panel.worker.failed.emit(replace(panel._asked, field_deg=0.123), Message("of an earlier question"))
+    panel.late._runner.failed.emit(replace(panel.late.asked, field_deg=0.123), Message("of an earlier question"))
     assert not panel.empty.isVisible()

@@ -79,16 +79,16 @@ def test_it_moves_with_the_slider_and_settles_when_that_rests(window, panel, qtb
             request, tiles = panel.shown
             assert request.states[0][0].optics.depth_mm == depth, "the picture of this very frame"
             assert not any(tile.settled for row in tiles for tile in row)
-            assert panel.asking.asked is None, "nothing is made in the background meanwhile"
-    assert panel.asking.asked == panel.shown[0] != settled
+            assert panel.late.asked is None, "nothing is made in the background meanwhile"
+    assert panel.late.asked == panel.shown[0] != settled
     rested(panel, qtbot)
     assert panel.settled[0].states[0][0].optics.depth_mm == 2000.0
 
 
 def test_what_moves_again_ends_what_was_being_settled(window, panel):
     window.store.update(depth_mm=2500.0, method="huygens")
-    assert panel.asking.worker.busy
-    cancelled = panel.asking.worker._cancelled
+    assert panel.late.busy
+    cancelled = panel.late._cancelled
     with window.store.drag():
         window.store.update(depth_mm=2600.0)
         assert cancelled.is_set()

@@ -52,7 +52,7 @@ def test_a_slow_transfer_function_follows_and_no_wrong_curve_is_shown(window, qt
     window.store.update(lens="petzval", method="traced", field_deg=3.0, depth_mm=700.0, tab="mtf")
     panel = window.panels["mtf"]
     request = window.live.views["mtf"]
-    assert isinstance(request, MeasureRequest) and panel.asking.asked == request
+    assert isinstance(request, MeasureRequest) and panel.late.asked == request
     settled(panel, qtbot)
     frequency, contrast = panel.curves["tangential"].data()
     at_20 = mtf_of(measured_parts(request), "", [20.0]).tangential[0]

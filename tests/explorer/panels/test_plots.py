@@ -1,7 +1,5 @@
 """Every plot of every panel under a person's hands: it zooms, pans, says what is under the pointer, locks, resets."""
 
-from threading import Event
-
 import numpy as np
 import pytest
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
@@ -34,7 +32,7 @@ def charts(window, qtbot, request):
     window.open_panel(key)
     panel = window.panels[key]
     if key == "accuracy":
-        panel.show_accuracy(measure(window.live, True, Event(), lambda part: None), stale=False)
+        panel.show_accuracy(measure(window.live, True, lambda: False, lambda part: None), stale=False)
     at_rest(window, qtbot)
     QApplication.processEvents()
     found = [chart for chart in panel.widget.findChildren(Chart) if chart.isVisible()]

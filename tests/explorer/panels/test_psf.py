@@ -120,5 +120,5 @@ def test_the_light_of_every_lens_fills_the_stage_at_every_field(window, qtbot, n
     largest = max(map(abs, load(name).fields_deg)) if np.isinf(opens.optics.depth_mm) else opens.optics.field_deg
     for share in (0.0, 0.7, 1.0):
         window.store.replace(change(opens, field_deg=share * largest, method="auto"))
-        qtbot.waitUntil(lambda: not window.deferred.worker.busy)
+        qtbot.waitUntil(lambda: not window.late_sums.busy)
         assert 0.6 <= circle_over_stage(window) <= 0.95, share

@@ -35,7 +35,7 @@ def strip(window, qtbot):
 
 def filled(panel, qtbot):
     settled(panel, qtbot)
-    assert panel.found[0] == panel.asking.asked
+    assert panel.found[0] == panel.late.asked
 
 
 def worked(question, module):
@@ -77,7 +77,7 @@ def test_pictures_and_marks_stand_at_their_sensor_positions(strip):
 
 
 def test_dragging_the_sensor_moves_the_slider_and_leaves_the_strip(window, strip, qtbot):
-    chart, asked = strip.chart, strip.asking.asked
+    chart, asked = strip.chart, strip.late.asked
     chart.grab()
     start = QPointF(float(chart.to_pixels(0.0, 0.0)[0]), chart.area.bottom() - 6)
     goal = QPointF(float(chart.to_pixels(asked.shifts_um[3], 0.0)[0]), start.y())
@@ -89,7 +89,7 @@ def test_dragging_the_sensor_moves_the_slider_and_leaves_the_strip(window, strip
     assert strip.chart.sensor_um == window.store.state.optics.sensor_shift_um
     assert window.live.quality == "settled" and window.store.can_undo
     filled(strip, qtbot)
-    assert strip.asking.asked == asked, "the strip does not move with the sensor"
+    assert strip.late.asked == asked, "the strip does not move with the sensor"
 
 
 @pytest.mark.parametrize("changes", [{"free_pupil": True}, {"muted": ("wd",)}, {"solo": ("w40",)}])
@@ -102,7 +102,7 @@ def test_where_the_sensor_does_not_focus_there_is_a_sentence_and_no_strip(window
     assert strip.chart.ranges()[0] == (-200.0, 200.0), "the sensor's line stands on its slider's travel"
     window.store.update(**UNTOUCHED)
     filled(strip, qtbot)
-    assert len(strip.chart.tiles) == len(strip.asking.asked.shifts_um)
+    assert len(strip.chart.tiles) == len(strip.late.asked.shifts_um)
 
 
 def test_arrow_keys_move_the_sensor(window, strip, qtbot):
@@ -169,7 +169,7 @@ def test_a_click_on_the_map_goes_to_that_field(window, qtbot):
     corner = panel.chart.tiles[-1]
     qtbot.mouseClick(panel.chart, Qt.MouseButton.LeftButton, pos=panel.chart.room(corner).center().toPoint())
     assert window.store.state.optics.field_deg == pytest.approx(14.0, abs=1e-3), "the corner is the field's edge"
-    assert panel.asking.asked == panel.found[0], "and the map stays as it is"
+    assert panel.late.asked == panel.found[0], "and the map stays as it is"
 
 
 def test_a_map_given_up_before_its_first_picture_is_an_empty_one(window):
@@ -270,9 +270,9 @@ def test_the_arrow_points_to_where_farther_fields_land(window, lens, field, up):
 
 def test_hidden_strip_and_map_ask_nothing(window, strip, qtbot):
     window.open_panel("profiles")
-    asked = strip.asking.asked
+    asked = strip.late.asked
     window.store.update(field_deg=4.0)
-    assert strip.asking.asked is asked and not strip.asking.worker.busy
+    assert strip.late.asked is asked and not strip.late.busy
 
 
 @pytest.mark.parametrize(

@@ -14,6 +14,7 @@ from p2sf.tolerance.errors_of_build import Tolerance, usual_tolerances
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.compute.views import tolerances as analysis
+from p2sf_explorer.panels import end_work
 from p2sf_explorer.panels.tolerances.arrangement import TolerancesBody
 from p2sf_explorer.panels.tolerances.panel import TolerancesPanel
 from p2sf_explorer.panels.tolerances.tables import LOST, ErrorTable
@@ -36,7 +37,7 @@ def panel(window, qtbot):
 
 
 def wait(panel, qtbot):
-    qtbot.waitUntil(lambda: not panel._stale() and not panel.worker.busy)
+    qtbot.waitUntil(lambda: not panel._stale() and not panel.late.busy)
 
 
 def test_no_limit_is_shown_before_there_are_builds(window, monkeypatch):
@@ -44,7 +45,7 @@ def test_no_limit_is_shown_before_there_are_builds(window, monkeypatch):
     made = TolerancesPanel(window.store)
     made.show(live(new_state(lens="tessar"), "settled", {"tolerances": analysis.question}))
     assert not made.limit.isEnabled() and not made.limit.text().strip("– ")
-    made.stop()
+    end_work(made)
 
 
 def test_errors_yield_and_worst_builds_are_shown(panel):
@@ -98,7 +99,7 @@ def test_a_share_that_comes_late_does_not_say_that_stopped_builds_are_drawn(pane
     for refusal, words in (("", "computing, 50 %"), ("Stopped", "as before")):
         panel.widget.set_readout("as before")
         panel._refusal = refusal
-        panel._on_progress(panel._request, 0.5)
+        panel._on_progress(panel.late.asked, 0.5)
         assert panel.widget.readout.text() == words
 
 

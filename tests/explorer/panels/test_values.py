@@ -6,7 +6,6 @@ the place that is said, with the arguments that the state stands for; nothing is
 
 import re
 from math import inf
-from threading import Event
 
 import numpy as np
 import pytest
@@ -298,7 +297,7 @@ def test_accuracy(window, qtbot, setup):
     """The difference map says the picture less the Huygens sum, both made again, in percent of the reference's peak."""
     window.store.replace(STATE)
     window.open_panel("accuracy")
-    made = measure(live(STATE), False, Event(), lambda part: None)
+    made = measure(live(STATE), False, lambda: False, lambda part: None)
     panel = window.panels["accuracy"]
     panel.show_accuracy(made, stale=False)
     QApplication.processEvents()

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from PySide6.QtWidgets import QApplication
 
-import p2sf_explorer.store.deferred as deferred
 from p2sf.errors import Cancelled, GeometryError
 from p2sf.lensfile.library import shipped_lenses
 from p2sf.messages import Message
@@ -29,7 +28,7 @@ WIDE = change(CORNER, clip=False, method="huygens", f_number=2.8, sensor_shift_u
 
 @pytest.fixture
 def window(window):
-    window.deferred.cache = SumCache()
+    window.sums = SumCache()
     return window
 
 
@@ -85,7 +84,7 @@ def test_a_sum_nobody_waits_for_any_more_is_not_shown(window, qtbot, monkeypatch
         second = window.live.pending
         gate.set()
         qtbot.waitUntil(lambda: window.live.pending is None)
-        assert first != second and window.deferred.cache.get(second)
+        assert first != second and window.sums.get(second)
         with noted(monkeypatch) as threads:
             window.store.update(psf_scale="log")
             QApplication.processEvents()
@@ -98,19 +97,19 @@ def test_a_sum_that_fails_says_so_and_nobody_waits_for_it(window, qtbot, monkeyp
     def fail(pending, cancelled):
         raise GeometryError("no ray passes; stop down.")
 
-    monkeypatch.setattr(deferred, "answer_to", fail)
+    monkeypatch.setattr("p2sf_explorer.window.window.answer_to", fail)
     window.store.replace(WIDE)
-    with qtbot.waitSignal(window.deferred.worker.failed):
+    with qtbot.waitSignal(window.late_sums.failed):
         assert window.live.pending
     assert window.banner.isVisible() and "stop down" in window.banner.text.text()
     monkeypatch.undo()
     window.store.update(psf_scale="log")
-    assert window.live.pending is None and not window.deferred.worker.busy, "it would fail again"
+    assert window.live.pending is None and not window.late_sums.busy, "it would fail again"
     assert window.live.psf.method != "huygens" and window.live.why == Message("no ray passes; stop down.")
 
 
 def test_a_failure_nobody_waits_for_is_not_told(window):
-    window.deferred.worker.failed.emit(live(CORNER, cache=SumCache()).pending, Message("nothing to say."))
+    window.late_sums._runner.failed.emit(live(CORNER, cache=SumCache()).pending, Message("nothing to say."))
     assert not window.banner.isVisible()
 
 
@@ -126,7 +125,7 @@ def test_what_was_given_up_and_asked_for_again_comes(window, qtbot, monkeypatch)
         return replace(ready, method="huygens", pixel_um=pending.window[1])
 
     said = []
-    monkeypatch.setattr(deferred, "answer_to", stoppable)
+    monkeypatch.setattr("p2sf_explorer.window.window.answer_to", stoppable)
     monkeypatch.setattr(window, "refuse", said.append)
     window.store.replace(WIDE)
     window.store.update(field_deg=13.0)
@@ -146,10 +145,10 @@ def test_of_two_pinned_b_is_summed_once(window, qtbot, monkeypatch):
         values = np.full((pending.window[0],) * 2, pending.window[0] ** -2.0, np.float32)
         return replace(ready, method="huygens", values=values, pixel_um=pending.window[1])
 
-    monkeypatch.setattr(deferred, "answer_to", counted)
+    monkeypatch.setattr("p2sf_explorer.window.window.answer_to", counted)
     window.store.replace(change(FIRST, pinned=optics(WIDE)))
     assert window._answers.pending == window._answers.b.pending is not None
-    qtbot.waitUntil(lambda: not (window.deferred.worker.busy or window._answers.pending))
+    qtbot.waitUntil(lambda: not (window.late_sums.busy or window._answers.pending))
     assert window._answers.b.psf.method == "huygens" and len(sums) == 1
 
 

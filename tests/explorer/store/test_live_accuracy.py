@@ -1,7 +1,5 @@
 """The background measure: R² against the Huygens sum arrives by itself, and every method's is in order."""
 
-from threading import Event
-
 import pytest
 from PySide6.QtCore import QSizeF
 
@@ -50,7 +48,7 @@ def test_a_method_has_one_r_squared_at_a_point_whatever_is_shown():
     found = {}
     for method in ("seidel", "fitted"):
         shown = live(new_state(method=method, field_deg=10.0, wavelength_nm=656.3, f_number=4.0))
-        accuracy = measure(shown, True, Event(), lambda part: None)
+        accuracy = measure(shown, True, lambda: False, lambda part: None)
         results = {method.method: method.r_squared for method in accuracy.results}
         assert accuracy.r_squared == pytest.approx(results[method], abs=1e-12)
         found[method] = shown.psf.pixel_um, results
@@ -67,7 +65,7 @@ def test_no_figure_of_an_earlier_picture_stands_beside_the_next(measured, qtbot)
         assert "vs Huygens" not in badge.text() and "R²" not in message.text()
         assert not measured.panels["accuracy"].methods.labelled
     known, live = measured.measuring._last, measured.live
-    measured.measuring._on_finished(known.live, known)  # comes late
+    measured.measuring._on_finished(None, known)  # comes late
     assert known.live.state != live.state and "vs Huygens" not in badge.text() and "R²" not in message.text()
 
 

@@ -13,7 +13,7 @@ from p2sf_explorer.compute.pupil import best_focus_um
 from p2sf_explorer.compute.setup import default_state, paraxial_setup
 from p2sf_explorer.files.session import last_session
 from p2sf_explorer.files.session_keeper import SessionKeeper
-from p2sf_explorer.panels import BackgroundPanel, build
+from p2sf_explorer.panels import build, end_work
 from p2sf_explorer.state.panels import GROUPS, REGISTRY
 from p2sf_explorer.state.state import change, new_state
 from p2sf_explorer.state.state_files import state_from_json, state_to_json
@@ -244,8 +244,7 @@ def test_a_panel_has_one_name(window, entry):
     made = window.panels.get(entry.key) or build(entry, window.store)
     assert made.widget.accessibleName() == entry.title
     if entry.key not in window.panels:
-        if isinstance(made, BackgroundPanel):
-            made.stop()
+        end_work(made)
         made.widget.deleteLater()
 
 

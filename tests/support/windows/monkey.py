@@ -89,9 +89,9 @@ class Person:
 
     def quiet(self) -> None:
         """Let the background finish, so that two looks at the memory see the same."""
-        workers = self.window.measuring.worker, self.window.deferred.worker
+        workers = self.window.measuring.late, self.window.late_sums
         for worker in workers:
-            worker.cancel()
+            worker.forget()
         for _ in range(1000):
             if not any(worker.busy for worker in workers):
                 return

@@ -4,16 +4,15 @@ from PySide6.QtCore import QEvent, QRect
 from PySide6.QtWidgets import QApplication, QWidget
 
 from p2sf_explorer.charts.chart import Chart
-from p2sf_explorer.panels import BackgroundPanel
+from p2sf_explorer.panels import end_work
 from p2sf_explorer.state.workspaces import on_show
 from p2sf_explorer.store.store import Store
-from p2sf_explorer.store.worker import LatestWins
 from p2sf_explorer.window.window import FIRST_SIZE
 
 
 def settled(panel, qtbot) -> None:
     """Wait until a panel shows the answer to what it was asked last: nothing runs or waits."""
-    qtbot.waitUntil(lambda: not panel.asking.worker.busy)
+    qtbot.waitUntil(lambda: not panel.late.busy)
 
 
 def at_rest(window, qtbot) -> None:
@@ -56,10 +55,7 @@ def close_panels(window, kept: tuple[str, ...]) -> None:
         panel = window.panels.pop(key)
         window._styled.pop(key, None)
         window.floating._at.pop(key, None)
-        if isinstance(panel, BackgroundPanel):
-            panel.stop()
-        for worker in panel.widget.findChildren(LatestWins):
-            worker.stop()
+        end_work(panel)
         panel.widget.hide()
         panel.widget.deleteLater()
     QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)

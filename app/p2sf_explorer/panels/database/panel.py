@@ -19,8 +19,8 @@ from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr, unbroken
 from p2sf_explorer.panels.database.depth_field_chart import PER_METRE, AtlasView, DepthFieldMap, Ends
 from p2sf_explorer.state.terms import WORDS
+from p2sf_explorer.store.late_answers import LateAnswers
 from p2sf_explorer.store.store import Store
-from p2sf_explorer.store.worker import LatestWins
 from p2sf_explorer.widgets.card import Card, chooser
 from p2sf_explorer.widgets.chart_card import TurningRow
 from p2sf_explorer.widgets.empty_state import EmptyState
@@ -57,11 +57,10 @@ class DatabasePanel:
             chart.taken.connect(store.begin)
             chart.released.connect(store.end)
             chart.picked.connect(lambda depth, angle: store.update(depth_mm=depth, field_deg=angle))
-        self._asked: DatabaseRequest | None = None
         self._answer: DatabaseResult | None = None
-        self.worker = LatestWins(self.widget)
-        self.worker.finished.connect(self._on_answer)
-        self.worker.failed.connect(self._on_failure)
+        self.late = LateAnswers(self.widget, lambda asked, stopped, _: answer(asked, stopped))
+        self.late.finished.connect(self._on_answer)
+        self.late.failed.connect(self._on_failure)
 
     def _lay_out(self) -> None:
         self.widget.add_tool(self.term)
@@ -102,9 +101,7 @@ class DatabasePanel:
             self._paint()
         for chart in (self.map, self.error, self.atlas):
             chart.show_point(state.optics.depth_mm, state.optics.field_deg)
-        if asked != self._asked:
-            self._asked = asked
-            self.worker.submit(asked, lambda cancelled, progress: answer(asked, cancelled.is_set))
+        self.late.ask(asked)
         self._show_wavelength(state.optics.wavelength_nm)
 
     def _show_wavelength(self, wavelength_nm: float) -> None:
@@ -112,7 +109,7 @@ class DatabasePanel:
         self.widget.set_readout(f"{at} · {tr('working')}" if self._stale() else at)
 
     def _stale(self) -> bool:
-        return self._answer is None or self._answer.question != self._asked
+        return self._answer is None or self._answer.question != self.late.asked
 
     def _on_answer(self, key: DatabaseRequest, found: DatabaseResult) -> None:
         self._answer = found
@@ -122,9 +119,8 @@ class DatabasePanel:
             self._show_wavelength(NM_PER_UM * key.wavelength_um)
 
     def _on_failure(self, key: DatabaseRequest, why: Message) -> None:
-        if key == self._asked:
-            self._show_empty(said(why))
-            self.widget.set_readout(tr("no maps"))
+        self._show_empty(said(why))
+        self.widget.set_readout(tr("no maps"))
 
     def _paint(self) -> None:
         if not self._answer:
@@ -160,10 +156,6 @@ class DatabasePanel:
         for part in (self.map, self.error, self.atlas, *self.bars, self.body):
             part.restyle(theme)
         self._paint()
-
-    def stop(self) -> None:
-        """End the worker's thread."""
-        self.worker.stop()
 
 
 class DatabaseBody(QWidget):

@@ -40,8 +40,8 @@ from p2sf_explorer.i18n.tr import local, tr, unbroken
 from p2sf_explorer.panels.image.depth_row import DepthRow
 from p2sf_explorer.panels.image.split_view import SplitView
 from p2sf_explorer.state.state import State
+from p2sf_explorer.store.late_answers import LateAnswers
 from p2sf_explorer.store.store import Store
-from p2sf_explorer.store.worker import LatestWins
 from p2sf_explorer.widgets.card import TurningCard, chooser, select
 from p2sf_explorer.widgets.drop import PhotoDrop
 from p2sf_explorer.widgets.empty_state import EmptyState
@@ -105,7 +105,7 @@ class ImagePanel:
         self._settled, self._place = True, (0.5, 0.5)
         self._before, self._before_pixels = np.empty(0), np.empty(0)
         self._keeper = Keeper()
-        self.quick, self.fine = LatestWins(self.widget), LatestWins(self.widget)
+        self.quick, self.fine = LateAnswers(self.widget), LateAnswers(self.widget)
         for worker in (self.quick, self.fine):
             worker.finished.connect(self._on_answer)
             worker.failed.connect(self._on_failure)
@@ -335,8 +335,3 @@ class ImagePanel:
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
         self.split_view.restyle(theme)
-
-    def stop(self) -> None:
-        """End the workers' threads."""
-        for worker in (self.quick, self.fine):
-            worker.stop()

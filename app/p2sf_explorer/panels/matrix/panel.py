@@ -39,7 +39,7 @@ from p2sf_explorer.panels.matrix.tile_charts import (
 )
 from p2sf_explorer.state.state import change
 from p2sf_explorer.state.terms import PLACES, PUPIL_AXES
-from p2sf_explorer.store.panel_jobs import Asking
+from p2sf_explorer.store.late_answers import LateAnswers
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import TurningCard, chooser
 from p2sf_explorer.widgets.chart_card import legend
@@ -103,7 +103,7 @@ class MatrixPanel:
         for group in (*pairs, (self.badge,)):
             self.widget.add_group(*group)
         self.widget.set_body(self.grid)
-        self.asking = Asking(self.widget, settle, self._take, self._say)
+        self.late = LateAnswers(self.widget, settle, self._take, self._say)
         self.shown: tuple[MatrixRequest, Tiles] | None = None
         self.settled: tuple[MatrixRequest, Tiles] | None = None
         self._live: Live | None = None
@@ -136,11 +136,11 @@ class MatrixPanel:
         self.grid.build(KINDS[view.request.what], (len(view.request.rows), len(view.request.columns)))
         self._filled = {chart: shown for chart, shown in self._filled.items() if chart in self.grid.charts}
         if view.settled or (view.tiles and live.quality == "preview"):
-            self.asking.forget()
+            self.late.forget()
             if view.waiting:
-                self.asking.ask_when_held(view.request)
+                self.late.ask_when_held(view.request)
         else:
-            self.asking.ask(view.request)
+            self.late.ask(view.request)
         if self.settled and self.settled[0] == view.request:
             self._paint(*self.settled)
         elif view.tiles:
@@ -171,7 +171,7 @@ class MatrixPanel:
 
     def _say(self, text: str) -> None:
         """Say why nothing was made; progress stands on the badge."""
-        if self.asking.asked is None and text:
+        if self.late.asked is None and text:
             self.badge.set_text(text, "warning")
 
     def _paint(self, request: MatrixRequest, tiles: Tiles) -> None:
@@ -263,10 +263,6 @@ class MatrixPanel:
         self.badge.restyle(theme)
         if self.shown:
             self._paint(*self.shown)
-
-    def stop(self) -> None:
-        """End the worker's thread."""
-        self.asking.worker.stop()
 
 
 def list_values(texts: tuple[str, ...]) -> tuple[str, ...]:

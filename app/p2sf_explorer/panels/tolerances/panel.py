@@ -41,8 +41,8 @@ from p2sf_explorer.panels.tolerances.histogram import Histogram
 from p2sf_explorer.panels.tolerances.tables import BuildList, ErrorTable, error_words
 from p2sf_explorer.state.build_errors import Compensator
 from p2sf_explorer.state.state import ToleranceView
+from p2sf_explorer.store.late_answers import LateAnswers
 from p2sf_explorer.store.store import Store
-from p2sf_explorer.store.worker import LatestWins
 from p2sf_explorer.widgets.card import Card, chooser, select
 from p2sf_explorer.widgets.chart_card import NOTE_PX, NotedChart
 from p2sf_explorer.widgets.plan_note import small_button
@@ -120,10 +120,9 @@ class TolerancesPanel:
         self._lay_out()
         self.overlay = Overlay(self.body)
         self._asked: ToleranceQuestion | None = None
-        self._request: ToleranceRequest | None = None
         self._found: ToleranceResult | None = None
         self._refusal, self._state = "", store.state
-        self.analyst, self.worker = Analyst(), LatestWins(self.widget)
+        self.late = LateAnswers(self.widget, Analyst().answer)
         self._connect()
 
     def _lay_out(self) -> None:
@@ -162,21 +161,18 @@ class TolerancesPanel:
         self.errors.typed.connect(lambda one, value: self._set_own((one.kind,), one.piece[0], one.piece[1], value))
         self.errors.refused.connect(store.refused)
         self.worst.opened.connect(self._open_build)
-        self.worker.finished.connect(self._on_answer)
-        self.worker.failed.connect(self._on_failure)
-        self.worker.progressed.connect(self._on_progress)
+        self.late.finished.connect(self._on_answer)
+        self.late.failed.connect(self._on_failure)
+        self.late.progressed.connect(self._on_progress)
 
     def show(self, live: Live) -> None:
         """Follow settings and lens; the builds are drawn anew where these have changed and nothing is dragged."""
         asked: ToleranceQuestion = live.views["tolerances"]
         self._asked, self._state = asked, live.sides[0] if live.sides else live.state
         self._show_settings(asked.view, asked.request.lens)
-        if asked.request != self._request and live.quality == "settled":
-            self._request, self._refusal = asked.request, ""
-            request = asked.request
-            self.worker.submit(
-                request, lambda cancelled, progress: self.analyst.answer(request, cancelled.is_set, progress)
-            )
+        if asked.request != self.late.asked and live.quality == "settled":
+            self._refusal = ""
+            self.late.ask(asked.request)
         self._paint()
 
     def _show_settings(self, view: ToleranceView, lens: Lens) -> None:
@@ -217,7 +213,7 @@ class TolerancesPanel:
         self._store.update(tolerances_own=())
 
     def _draw_again(self) -> None:
-        self._request = None
+        self.late.forget()
         self._store.update(tolerances_draw=self._store.state.tolerances.draw + 1)
 
     def _open_build(self, number: int) -> None:
@@ -236,7 +232,7 @@ class TolerancesPanel:
         return self._asked, self._found
 
     def _stop(self) -> None:
-        self.worker.cancel()
+        self.late.cancel()
         self._refusal = tr("Stopped. Draw again to start over.")
         self._paint()
 
@@ -244,24 +240,23 @@ class TolerancesPanel:
         return self._found is None or self._asked is None or self._found.request != self._asked.request
 
     def _on_progress(self, key: ToleranceRequest, share: float) -> None:
-        if key == self._request and not self._refusal:
+        if key == self.late.asked and not self._refusal:
             self.widget.set_readout(local(tr("computing, {percent} %", percent=f"{100 * share:.0f}")))
 
     def _on_answer(self, key: ToleranceRequest, found: ToleranceResult) -> None:
-        if key == self._request:
+        if key == self.late.asked:
             self._found, self._refusal = found, ""
             self._paint()
 
     def _on_failure(self, key: ToleranceRequest, why: Message) -> None:
-        if key == self._request:
-            self._found, self._refusal = None, said(why)
-            self._paint()
+        self._found, self._refusal = None, said(why)
+        self._paint()
 
     def _paint(self) -> None:
         """Paint the figures of the last result, if it is of these settings."""
         stale = self._stale()
-        self.stop_button.setVisible(self.worker.busy)
-        self.again.setVisible(not self.worker.busy)
+        self.stop_button.setVisible(self.late.busy)
+        self.again.setVisible(not self.late.busy)
         waiting = tr("The sensitivities are computed from exact rays.")
         self.film.setEnabled(not stale)
         self.overlay.say(self._refusal or (waiting if self._found is None else ""), 0)
@@ -312,10 +307,6 @@ class TolerancesPanel:
         self._theme = theme
         for part in (self.histogram, self.yields, self.errors, self.worst, self.body):
             part.restyle(theme)
-
-    def stop(self) -> None:
-        """End the worker's thread."""
-        self.worker.stop()
 
 
 def _number_box(tip: str, places: int, most: float) -> NumberBox:

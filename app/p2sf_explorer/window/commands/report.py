@@ -13,8 +13,8 @@ from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.report.contents import report_of
 from p2sf_explorer.report.writing import write_report
 from p2sf_explorer.state.state import State
+from p2sf_explorer.store.late_answers import LateAnswers
 from p2sf_explorer.store.store import Store
-from p2sf_explorer.store.worker import LatestWins
 
 PATIENCE_MS = 400  # before the progress is shown
 COMPUTED = 0.4  # of the time is over when all is computed and pages are to be drawn
@@ -26,7 +26,7 @@ class ReportWriter(QObject):
     def __init__(self, store: Store, window: QWidget):
         super().__init__(window)
         self._store, self._window = store, window
-        self.worker = LatestWins(self)
+        self.worker = LateAnswers(self)
         self.worker.finished.connect(self._on_finished)
         self.worker.failed.connect(self._on_failed)
         self.worker.progressed.connect(self._on_progress)

@@ -24,8 +24,8 @@ from p2sf_explorer.files.snapshot import saved
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.state.state import State
+from p2sf_explorer.store.late_answers import LateAnswers
 from p2sf_explorer.store.store import Store
-from p2sf_explorer.store.worker import LatestWins
 from p2sf_explorer.widgets.typed import typed
 from p2sf_explorer.widgets.value_edit import ShortField
 from p2sf_explorer.window.commands.set_request import (
@@ -75,7 +75,7 @@ class SetDialog(QDialog):
         self.edits = {key: ShortField(self) for key in LABELS}
         self.count, self.note, self.bar = QLabel(self), QLabel(self), QProgressBar(self)
         self.export, self.stop_button = QPushButton(tr("Export…"), self), QPushButton(tr("Close"), self)
-        self.worker = LatestWins(self)
+        self.worker = LateAnswers(self)
         self.worker.finished.connect(self._on_finished)
         self.worker.failed.connect(self._on_failed)
         self.worker.progressed.connect(self._on_progress)
