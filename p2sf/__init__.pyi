@@ -23,6 +23,12 @@ from p2sf.errors import P2SFWarning as P2SFWarning
 from p2sf.errors import RequestError as RequestError
 from p2sf.errors import SamplingError as SamplingError
 from p2sf.export.psf_cube import open_database as open_database
+from p2sf.figures.measures import Energy as Energy
+from p2sf.figures.measures import LineSpread as LineSpread
+from p2sf.figures.measures import Mtf as Mtf
+from p2sf.figures.samples import energy_of_psf as energy_of_psf
+from p2sf.figures.samples import line_spread_of_psf as line_spread_of_psf
+from p2sf.figures.samples import mtf_of_psf as mtf_of_psf
 from p2sf.glass.media import Medium as Medium
 from p2sf.glass.media import medium as medium
 from p2sf.image.exposure import expose as expose
@@ -43,14 +49,8 @@ from p2sf.lens.source import Source as Source
 from p2sf.lensfile.writing import write_lens as write_lens
 from p2sf.measure.fitting.point_fit import PointFit as PointFit
 from p2sf.measure.single_psf import fit_psf as fit_psf
-from p2sf.metrics.measures import Energy as Energy
-from p2sf.metrics.measures import LineSpread as LineSpread
-from p2sf.metrics.measures import Mtf as Mtf
 from p2sf.metrics.opd_pupil import Pupil as Pupil
 from p2sf.metrics.opd_pupil import fit_zernike as fit_zernike
-from p2sf.metrics.samples import energy_of_psf as energy_of_psf
-from p2sf.metrics.samples import line_spread_of_psf as line_spread_of_psf
-from p2sf.metrics.samples import mtf_of_psf as mtf_of_psf
 from p2sf.named_arrays import NamedArrays as NamedArrays
 from p2sf.paraxial.positions import lens_at as lens_at
 from p2sf.paraxial.seidel import Coefficients as Coefficients

@@ -24,7 +24,8 @@ from p2sf.setting import AS_IN_FILE, AimChoice, CameraData, StopChoice, set_up_s
 from p2sf.threads import using_threads
 
 if TYPE_CHECKING:
-    from p2sf.metrics.measures import Energy, LineSpread, Mtf, PupilPart
+    from p2sf.figures.measures import Energy, LineSpread, Mtf
+    from p2sf.metrics.measures import PupilPart
     from p2sf.psf.methods import Choice
     from p2sf.psf.result import Psf
     from p2sf.pupil.zernike_terms import ZernikeOrder

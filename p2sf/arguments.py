@@ -35,7 +35,7 @@ WANTED = {
     "PathLike": "a path",
     "Lens": "what p2sf.load_lens returns",
     "Plan": "what p2sf.plan returns",
-    "Psf": "what p2sf.render returns",
+    "PsfData": "what p2sf.render returns",
     "Shape": "a shape, such as p2sf.lens.freeform.XYPolynomial",
 }
 

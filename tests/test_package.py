@@ -44,12 +44,6 @@ OF_A_PSF = {
     for name in (
         "p2sf.io.psf_files.write_psf",
         "p2sf.io.psf_plot.draw_psf",
-        "p2sf.metrics.measures.Energy",
-        "p2sf.metrics.measures.LineSpread",
-        "p2sf.metrics.measures.Mtf",
-        "p2sf.metrics.samples.energy_of_psf",
-        "p2sf.metrics.samples.line_spread_of_psf",
-        "p2sf.metrics.samples.mtf_of_psf",
     )
 }
 # A lens holds its zoom positions, which are lenses; a chart holds its hand and what paints it, which read the chart.

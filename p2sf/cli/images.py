@@ -15,14 +15,15 @@ from p2sf.cli.screen import FILLED, Row, heading, print_json, print_table, warn
 from p2sf.colour.spectrum import WORDS
 from p2sf.database.accuracy import DatabaseAccuracy
 from p2sf.errors import P2SFError, RequestError, SamplingError
+from p2sf.figures.measures import Energy
 from p2sf.figures.psf_data import facts
+from p2sf.figures.window import centroid, radius_of_energy
 from p2sf.files.writing import plain
 from p2sf.io.psf_files import ENDINGS, write_psf
 from p2sf.io.record import describe
 from p2sf.lensfile.library import find_lens
 from p2sf.messages import Message, ParameterName
-from p2sf.metrics.measures import Energy, energy_in, parts_of
-from p2sf.metrics.window import centroid, radius_of_energy
+from p2sf.metrics.measures import energy_in, parts_of
 from p2sf.psf.methods import AUTO, PsfOptions, by_six
 from p2sf.psf.prediction import ALLOWED, TOO_FAR, USELESS
 from p2sf.psf.result import IN_WINDOW, Psf
@@ -143,8 +144,9 @@ def render(setup: Setup, picture: Picture) -> Psf:
 
 
 def _from_coefficients(setup: Setup, picture: Picture) -> Psf:
+    from p2sf.figures.window import critical_pixel_um
     from p2sf.paraxial.seidel import check_seidel, coefficients
-    from p2sf.psf.pixel_integrals import critical_pixel_um, integrate
+    from p2sf.psf.pixel_integrals import integrate
     from p2sf.psf.seidel import seidel_psf, suitable_pixel_um
     from p2sf.raytrace.seen_mask import mask_seen
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
 
 from p2sf.database.space import Space
+from p2sf.figures import window
 from p2sf.lens.source import Source
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.psf import pixel_integrals
@@ -151,7 +152,7 @@ def pixels_psf(
         lambda count, pitch: database_psf(database, source, count, pitch),
         pixels,
         pixel_um or float(suitable_pixel_um(six, pixels)),
-        float(pixel_integrals.critical_pixel_um(six.wavelength_um, six.na)),
+        float(window.critical_pixel_um(six.wavelength_um, six.na)),
         integrated,
     )
     return replace(psf, azimuth_deg=source.azimuth_deg)
@@ -177,4 +178,4 @@ def critical_pixel_um(database: Database) -> float:
     space = database.space
     # The numerical aperture does not depend on the field.
     found = database.coefficients(space.depths_mm[:, None], space.field_slopes[0], space.wavelengths_um)
-    return float(np.min(pixel_integrals.critical_pixel_um(space.wavelengths_um, found.na)))
+    return float(np.min(window.critical_pixel_um(space.wavelengths_um, found.na)))

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from p2sf.errors import SamplingError
+from p2sf.figures.window import centroid, radius_of_energy
 from p2sf.messages import Message
-from p2sf.metrics.window import centroid, radius_of_energy
 from p2sf.psf.compare import r_squared, relative_l2
 from p2sf.psf.result import Psf
 

@@ -14,8 +14,8 @@ from numpy.typing import ArrayLike
 from p2sf.arguments import check_arguments, number_list, real_array
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
 from p2sf.errors import RequestError, SamplingError
-from p2sf.metrics.hankel import HankelEnergy, hankel_energy
-from p2sf.metrics.measures import PARTS, Energy, LineSpread, Mtf
+from p2sf.figures.hankel import HankelEnergy, hankel_energy
+from p2sf.figures.measures import PARTS, Energy, LineSpread, Mtf
 from p2sf.metrics.perfect import circle_contrast
 from p2sf.metrics.transfer import OtfSlice, edge_spread, line_spread
 from p2sf.parameters import check_positive

@@ -13,6 +13,7 @@ import numpy as np
 
 from p2sf.errors import SamplingError
 from p2sf.figures.psf_data import Figure, Later, PsfFigures
+from p2sf.figures.window import ROUNDING, critical_pixel_um
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
@@ -28,21 +29,11 @@ from p2sf.raytrace.pencil import pencil, rays_through
 from p2sf.raytrace.vignetting import pupil_nodes
 
 LARGEST = 2048  # fine samples a side: beyond, sums take minutes
-ROUNDING = 1e-9
 RAYS = 24, 96  # radii × directions for the share of light in a window
 
 
-def critical_pixel_um(wavelength_um: float | np.ndarray, na: float | np.ndarray) -> np.ndarray:
-    """Return λ/(4 NA), µm, the largest pitch at which samples determine a PSF.
-
-    An incoherent image holds no frequency above 2NA/λ (Goodman 2005, §6.3).
-    """
-    critical: np.ndarray = np.asarray(wavelength_um) / (4 * np.asarray(na))
-    return critical
-
-
 def critical_pixel_of_spheres(lens: Lens, source: Source) -> float:
-    """Return the same for spherical waves, whose fringes are fine near the pupil however slow the lens; inf of none."""
+    """Return the largest pitch for spherical waves, fine near the pupil however slow the lens; inf of none."""
     sphere = exit_sphere(lens, source)
     if sphere is None:
         return inf

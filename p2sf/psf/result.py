@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
 
-    from p2sf import Energy, LineSpread, Mtf
+    from p2sf.figures.measures import Energy, LineSpread, Mtf
 
 LEAST_LIGHT = 0.9  # share of all light below which a warning says that the window cuts off the PSF
 HALF_OF_LIGHT = 0.5  # below which a window's relative L2 error is stated too
@@ -190,19 +190,19 @@ class Psf(PsfData):
 
     def mtf(self, frequency_per_mm: ArrayLike | None = None) -> "Mtf":
         """Return the contrast at frequencies, cycles per mm, by the samples; see `p2sf.mtf_of_psf`."""
-        from p2sf import mtf_of_psf
+        from p2sf.figures.samples import mtf_of_psf
 
         return mtf_of_psf(self, frequency_per_mm)
 
     def encircled_energy(self, radius_um: ArrayLike | None = None) -> "Energy":
         """Return the share of all light within radii of the centroid, µm, by the samples; see `p2sf.energy_of_psf`."""
-        from p2sf import energy_of_psf
+        from p2sf.figures.samples import energy_of_psf
 
         return energy_of_psf(self, radius_um)
 
     def line_spread(self, position_um: ArrayLike | None = None) -> "LineSpread":
         """Return the images of a line and an edge at distances, µm, by the samples; see `p2sf.line_spread_of_psf`."""
-        from p2sf import line_spread_of_psf
+        from p2sf.figures.samples import line_spread_of_psf
 
         return line_spread_of_psf(self, position_um)
 

@@ -12,11 +12,11 @@ import numpy as np
 
 from p2sf.conventions import NM_PER_UM, centred_axis, slope_from_degrees
 from p2sf.errors import SamplingError
+from p2sf.figures.window import critical_pixel_um
 from p2sf.lens.lens import Lens, with_aim
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.seidel import Coefficients, coefficients
-from p2sf.psf.pixel_integrals import critical_pixel_um
 from p2sf.psf.seidel import fft_intensity, fft_samples, seidel_psf
 from p2sf.studies.paper import LENS, PIXELS, WAVELENGTH_NM, WINDOW_UM
 

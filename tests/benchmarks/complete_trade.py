@@ -21,9 +21,9 @@ import numpy as np
 
 from p2sf.conventions import NM_PER_UM, degrees_from_slope
 from p2sf.errors import P2SFError
+from p2sf.figures.window import radius_of_energy
 from p2sf.lens.lens import Lens
 from p2sf.lensfile.library import find_lens, shipped_lenses
-from p2sf.metrics.window import radius_of_energy
 from p2sf.psf.methods import REFERENCE
 from p2sf.psf.result import Psf
 from p2sf.studies.complete_trade import LensTrade, Row, SpaceWords, Spread, load_trades, save_trades

@@ -39,6 +39,7 @@ BESIDE = {  # where else a folder's numbers are read, by the beginning of its pa
     "app/p2sf_explorer/widgets": ("tests/explorer/panels", "tests/explorer/window"),
     "app/p2sf_explorer/state": ("tests/explorer/window",),
     "p2sf/studies": ("tests/cli",),
+    "p2sf/figures": ("tests/metrics", "tests/io"),
     "p2sf/colour": ("tests/io", "tests/image"),
     "p2sf/lens": ("tests/lensfile", "tests/raytrace"),
 }

@@ -8,10 +8,11 @@ from hypothesis import Phase, assume, given, settings
 from hypothesis import strategies as st
 
 from p2sf.errors import P2SFError
+from p2sf.figures.measures import Energy, Mtf
 from p2sf.lens.lens import Lens, with_aim, with_f_number, with_sensor
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens, shipped_lenses
-from p2sf.metrics.measures import Energy, Mtf, energy_in, mtf_of, parts_of
+from p2sf.metrics.measures import energy_in, mtf_of, parts_of
 from p2sf.paraxial.first_order import image_distance
 from tests.support.lenses.random_lenses import between, lenses, slopes, wavelengths
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from p2sf.errors import SamplingError
-from p2sf.psf.enlarge import LARGEST, enlarge
+from p2sf.figures.enlarge import LARGEST, enlarge
 from p2sf.psf.methods import PsfRequest, psf_of
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import AIRY_RADIUS

@@ -59,7 +59,7 @@ def light_rings(values: np.ndarray, pixel_um: float) -> LightRings:
     """Return the light of a picture within circles about its centroid; ``values``: samples (n, n) as of a `Psf`.
 
     To a fraction of a pixel: a sample's light is spread over one pixel along the radius, which takes a fifth of the
-    time of `p2sf.metrics.window.radius_of_energy`.
+    time of `p2sf.figures.window.radius_of_energy`.
     """
     count = len(values)
     block = max(1, count // BLOCKS)

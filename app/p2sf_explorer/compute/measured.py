@@ -17,7 +17,8 @@ from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.sampled import by_coefficients
 
 if TYPE_CHECKING:
-    from p2sf.metrics.measures import Energy, PupilPart
+    from p2sf.figures.measures import Energy
+    from p2sf.metrics.measures import PupilPart
 
 LIVE_SAMPLES = 2**18  # of both slices of a transfer function: some 5 ms, and a blur of 64 waves per pupil radius
 LIVE_WAVES = 40.0  # per pupil radius, of a blur whose energy is live: some 15 ms

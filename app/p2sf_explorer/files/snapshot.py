@@ -8,13 +8,14 @@ from typing import Any
 
 from p2sf.errors import ExportError
 from p2sf.figures.record import versions
+from p2sf.figures.window import critical_pixel_um
 from p2sf.files.writing import write_beside
 from p2sf.io.png_text import with_text
 from p2sf.io.psf_files import write_psf
 from p2sf.io.record import describe
 from p2sf.messages import Message
 from p2sf.psf.methods import psf_of
-from p2sf.psf.pixel_integrals import critical_pixel_um, fine_side, integrate, samples_across
+from p2sf.psf.pixel_integrals import fine_side, integrate, samples_across
 from p2sf.psf.result import Psf
 from p2sf_explorer.compute.lens_files import is_file
 from p2sf_explorer.compute.live import Live

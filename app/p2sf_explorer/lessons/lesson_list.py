@@ -8,7 +8,7 @@ from PySide6.QtGui import QIcon, QImage, QPixmap
 from PySide6.QtWidgets import QDialog, QLineEdit, QListWidget, QListWidgetItem, QVBoxLayout, QWidget
 
 from p2sf.errors import P2SFError
-from p2sf.psf.enlarge import enlarge
+from p2sf.figures.enlarge import enlarge
 from p2sf_explorer.charts.plots import as_indices, lookup
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.framing import frame_of, light_circle

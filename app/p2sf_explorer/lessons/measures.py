@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, SupportsFloat
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
+from p2sf.figures.measures import Energy
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.metrics.measures import Energy, energy_in, mtf_of
+from p2sf.metrics.measures import energy_in, mtf_of
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.pupils import find_stop
 from p2sf.paraxial.wavefront import wavefront

@@ -10,13 +10,14 @@ import numpy as np
 from p2sf.conventions import NM_PER_UM, slope_from_degrees, vergence
 from p2sf.database.space import Space
 from p2sf.errors import GeometryError
+from p2sf.figures.window import ROUNDING
 from p2sf.lens.lens import Lens, check_aligned, with_f_number
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.first_order import cardinal_points
 from p2sf.paraxial.pupils import field_from_object_height, find_stop
 from p2sf.paraxial.seidel import coefficients
-from p2sf.psf.pixel_integrals import ROUNDING, fine_side, light_per_pixel
+from p2sf.psf.pixel_integrals import fine_side, light_per_pixel
 from p2sf.raytrace.fit import fit
 from p2sf.raytrace.ray_field import AIRY_RADIUS
 from p2sf.spans import depth_nodes

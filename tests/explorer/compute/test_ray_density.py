@@ -5,7 +5,7 @@ import pytest
 
 from p2sf.conventions import UM_PER_MM, centred_axis
 from p2sf.errors import GeometryError
-from p2sf.metrics.window import radius_of_energy
+from p2sf.figures.window import radius_of_energy
 from p2sf.psf.geometric import RayBlur, density, geometric_psf, over_unaberrated, polar, ray_blur
 from p2sf.psf.methods import psf_of
 from p2sf.pupil.domain import HALF

@@ -6,8 +6,8 @@ from functools import cached_property
 
 import numpy as np
 
+from p2sf.figures.enlarge import enlarge
 from p2sf.messages import Message
-from p2sf.psf.enlarge import enlarge
 from p2sf_explorer.compute.framing import Circle, frame_of
 from p2sf_explorer.state.scales import nice
 

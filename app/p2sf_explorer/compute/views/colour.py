@@ -107,7 +107,7 @@ def hues(wavelength_um: np.ndarray) -> np.ndarray:
 
 
 def smooth_colours(found: ColourPsf, coarse: bool) -> ColourPsf:
-    """Return a picture on finer samples, as it is painted; ``coarse`` as for `p2sf.psf.enlarge.enlarge`."""
+    """Return a picture on finer samples, as it is painted; ``coarse`` as for `p2sf.figures.enlarge.enlarge`."""
     finer = [smooth(found.xyz[..., channel], coarse=coarse) for channel in range(3)]
     return replace(found, xyz=np.stack(finer, axis=-1))
 

@@ -9,16 +9,16 @@ from numpy.typing import ArrayLike
 
 from p2sf.arguments import check_arguments, number_list
 from p2sf.errors import SamplingError
-from p2sf.metrics import window
-from p2sf.metrics.hankel import HankelEnergy, hankel_energy
-from p2sf.metrics.measures import PARTS, Energy, LineSpread, Mtf
-from p2sf.psf.result import Psf
+from p2sf.figures import window
+from p2sf.figures.hankel import HankelEnergy, hankel_energy
+from p2sf.figures.measures import PARTS, Energy, LineSpread, Mtf
+from p2sf.figures.psf_data import PsfData
 
 RADII = 129
 
 
 @check_arguments
-def mtf_of_psf(psf: Psf, frequency_per_mm: ArrayLike | None = None) -> Mtf:
+def mtf_of_psf(psf: PsfData, frequency_per_mm: ArrayLike | None = None) -> Mtf:
     """Compute the contrast of sine patterns from the samples of a PSF.
 
     Parameters
@@ -57,7 +57,7 @@ def mtf_of_psf(psf: Psf, frequency_per_mm: ArrayLike | None = None) -> Mtf:
 
 
 @check_arguments
-def energy_of_psf(psf: Psf, radius_um: ArrayLike | None = None) -> Energy:
+def energy_of_psf(psf: PsfData, radius_um: ArrayLike | None = None) -> Energy:
     """Compute from the samples of a PSF which share of all light lies within a radius of the window's centroid.
 
     Parameters
@@ -100,7 +100,7 @@ def energy_of_psf(psf: Psf, radius_um: ArrayLike | None = None) -> Energy:
     return Energy(*made, centroid_x_um=right, predicted_error=error)
 
 
-def _energy_about(psf: Psf, x_um: float, y_um: float) -> HankelEnergy:
+def _energy_about(psf: PsfData, x_um: float, y_um: float) -> HankelEnergy:
     """Return the energy about a point of the picture whose samples these are, dark outside the window.
 
     Between samples it is the sum of the waves that they hold, which is the picture itself where they are `resolved`.
@@ -117,7 +117,7 @@ def _energy_about(psf: Psf, x_um: float, y_um: float) -> HankelEnergy:
 
 
 @check_arguments
-def line_spread_of_psf(psf: Psf, position_um: ArrayLike | None = None) -> LineSpread:
+def line_spread_of_psf(psf: PsfData, position_um: ArrayLike | None = None) -> LineSpread:
     """Compute the images of a line and of an edge from the samples of a PSF, as if all light were in its window.
 
     Parameters
@@ -165,12 +165,12 @@ def _spread(line: np.ndarray, places: np.ndarray, position: np.ndarray) -> tuple
     return found, (integral(inside) - low) / (high - low)
 
 
-def _outside(psf: Psf) -> float:
+def _outside(psf: PsfData) -> float:
     """Return the share of the light outside the window, 0 if it is not known."""
     return 0.0 if psf.energy is None else max(0.0, 1 - float(psf.energy))
 
 
-def _check_one(psf: Psf) -> None:
+def _check_one(psf: PsfData) -> None:
     if psf.values.ndim != 2 or min(psf.values.shape) < 2:
         raise SamplingError(
             "figures are of one PSF of two samples a side or more, and this one has the shape {shape}; ask for one "

@@ -1,6 +1,6 @@
 """Figures computed from the samples of a PSF alone: peak, centre, energy, profiles, contrast (handbook 6.3).
 
-Every function takes a `Psf` of any stack shape and works on the light inside its window; ``psf.energy`` is its share,
+Every function takes a PSF of any stack shape and works on the light inside its window; ``psf.energy`` is its share,
 and `resolved` tells whether samples are close enough. If the lens is known, `p2sf.metrics.measures` needs neither
 window nor samples.
 """
@@ -13,10 +13,10 @@ from numpy.typing import ArrayLike
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import SamplingError
-from p2sf.psf.enlarge import cubic
-from p2sf.psf.pixel_integrals import ROUNDING, critical_pixel_um
-from p2sf.psf.result import Psf
+from p2sf.figures.enlarge import cubic
+from p2sf.figures.psf_data import PsfData
 
+ROUNDING = 1e-9
 ROUND_OFF = 1e-5  # of a pixel: rounding of 32-bit samples of a symmetric line
 NEAR, FINER = 6, 5  # for its energy a PSF is interpolated: within so many pixels of its centre, so much finer
 
@@ -48,17 +48,26 @@ class WindowMtf(NamedTuple):
     sagittal: np.ndarray
 
 
-def resolved(psf: Psf, na: float | np.ndarray) -> bool:
+def critical_pixel_um(wavelength_um: float | np.ndarray, na: float | np.ndarray) -> np.ndarray:
+    """Return λ/(4 NA), µm, the largest pitch at which samples determine a PSF.
+
+    An incoherent image holds no frequency above 2NA/λ (Goodman 2005, §6.3).
+    """
+    critical: np.ndarray = np.asarray(wavelength_um) / (4 * np.asarray(na))
+    return critical
+
+
+def resolved(psf: PsfData, na: float | np.ndarray) -> bool:
     """Return whether the pitch is at most λ/(4 NA), so that samples determine a PSF of this aperture completely."""
     return bool(np.all(psf.pixel_um <= critical_pixel_um(psf.wavelength_um, na) * (1 + ROUNDING)))
 
 
-def strehl(psf: Psf) -> float | np.ndarray | None:
+def strehl(psf: PsfData) -> float | np.ndarray | None:
     """Return the highest sample divided by the unaberrated peak of the same pupil; None without one."""
     return psf.strehl
 
 
-def centroid(psf: Psf) -> tuple[np.ndarray, np.ndarray]:
+def centroid(psf: PsfData) -> tuple[np.ndarray, np.ndarray]:
     """Return x and y of the centroid of the window, µm from the chief ray, shape of the stack.
 
     The first row and column of an even window have no counterpart: their light would shift the centroid of a symmetric
@@ -82,13 +91,13 @@ def line_centroid(line: np.ndarray, position_um: np.ndarray) -> np.ndarray:
     return np.where(np.abs(middle - sample) > ROUND_OFF * pitch, middle, sample)
 
 
-def peak(psf: Psf) -> tuple[np.ndarray, np.ndarray]:
+def peak(psf: PsfData) -> tuple[np.ndarray, np.ndarray]:
     """Return x and y of the highest sample, µm from the chief ray, shape of the stack."""
     row, column = _peak_samples(psf)
     return psf.x_um[column], psf.y_um[row]
 
 
-def _peak_samples(psf: Psf) -> tuple[np.ndarray, np.ndarray]:
+def _peak_samples(psf: PsfData) -> tuple[np.ndarray, np.ndarray]:
     values = psf.values
     highest = np.asarray(values.reshape(*values.shape[:-2], -1).argmax(-1))
     row, column = np.unravel_index(highest, values.shape[-2:])
@@ -96,7 +105,7 @@ def _peak_samples(psf: Psf) -> tuple[np.ndarray, np.ndarray]:
 
 
 def encircled_energy(
-    psf: Psf, centre: tuple[ArrayLike, ArrayLike] | None = None, radius_um: ArrayLike | None = None
+    psf: PsfData, centre: tuple[ArrayLike, ArrayLike] | None = None, radius_um: ArrayLike | None = None
 ) -> WindowEnergy:
     """Return the fraction of the window's light within each radius of ``centre`` (x, y) in µm.
 
@@ -111,7 +120,9 @@ def encircled_energy(
     return WindowEnergy(radii, np.reshape(curves, (*psf.values.shape[:-2], len(radii))))
 
 
-def radius_of_energy(psf: Psf, fraction: float = 0.5, centre: tuple[ArrayLike, ArrayLike] | None = None) -> np.ndarray:
+def radius_of_energy(
+    psf: PsfData, fraction: float = 0.5, centre: tuple[ArrayLike, ArrayLike] | None = None
+) -> np.ndarray:
     """Return the radius in µm that holds ``fraction`` (0 to 1) of the window's light, shape of the stack.
 
     Raises SamplingError for a fraction that is not between 0 and 1.
@@ -123,7 +134,7 @@ def radius_of_energy(psf: Psf, fraction: float = 0.5, centre: tuple[ArrayLike, A
 
 
 def _all_rings(
-    psf: Psf, centre: tuple[ArrayLike, ArrayLike] | None
+    psf: PsfData, centre: tuple[ArrayLike, ArrayLike] | None
 ) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
     """Yield (inner radius, outer radius, share of the light) of the samples, about the centre of each PSF."""
     x0, y0 = (np.broadcast_to(c, psf.values.shape[:-2]).ravel() for c in (centroid(psf) if centre is None else centre))
@@ -185,7 +196,7 @@ def _radius_within(inner: np.ndarray, outer: np.ndarray, value: np.ndarray, frac
     return float(np.interp(fraction * energy[-1], energy, corners))
 
 
-def profiles(psf: Psf, through: str = "chief") -> Cuts:
+def profiles(psf: PsfData, through: str = "chief") -> Cuts:
     """Return the row and column through the chief ray ("chief") or the highest sample ("peak").
 
     Raises SamplingError for any other point.
@@ -202,7 +213,7 @@ def profiles(psf: Psf, through: str = "chief") -> Cuts:
     return Cuts(psf.x_um, along_x, psf.y_um, along_y)
 
 
-def mtf(psf: Psf, frequency_per_mm: ArrayLike | None = None, na: float | None = None) -> WindowMtf:
+def mtf(psf: PsfData, frequency_per_mm: ArrayLike | None = None, na: float | None = None) -> WindowMtf:
     """Return the contrast of sine patterns, |FT of the PSF| over its value at zero, along y and along x.
 
     Frequencies are in cycles per mm, by default from 0 to the Nyquist frequency of the pitch; beyond it is NaN.
