@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from p2sf.arguments import real_array
 from p2sf.conventions import NM_PER_UM, slope_from_degrees
-from p2sf.database.render import Database, Sampling, critical_pixel_um, light_of, samples_per_pixel
+from p2sf.database.render import Database, Sampling, critical_pixel_um, grid_of, light_of
 from p2sf.database.space import Space
 from p2sf.errors import DatabaseError, RequestError
 
@@ -71,9 +71,9 @@ def psfs_into(database: Database, points: Points, sampling: Sampling, out: Any =
             shape=str(shape),
         )
     sampling = replace(sampling, pixel_um=sampling.pixel_um or critical_pixel_um(database))
-    across = samples_per_pixel(database, sampling)
+    grid = grid_of(database, sampling)
     for some in _blocks(shape):
-        found[some] = light_of(database, [each[some] for each in every], sampling, across, found.dtype)
+        found[some] = light_of(database, [each[some] for each in every], sampling, grid, found.dtype)
     return found
 
 

@@ -10,9 +10,10 @@ from numpy.typing import ArrayLike, DTypeLike
 
 from p2sf.database.space import Space
 from p2sf.figures import window
+from p2sf.figures.pixel_light import FineGrid, fine_grid
 from p2sf.lens.source import Source
 from p2sf.paraxial.seidel import Coefficients
-from p2sf.psf import pixel_integrals
+from p2sf.psf.pixel_integrals import integrate
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_image, check_samples, check_window, seidel_psf, suitable_pixel_um
 from p2sf.psf.seidel_stack import stack_of
@@ -99,7 +100,7 @@ def rendered_light(
     threads: int | None = None,
 ) -> np.ndarray:
     """Return PSFs as `render_source`, as light per pixel if the pitch exceeds that of `critical_pixel_um`."""
-    return light_of(database, points, sampling, samples_per_pixel(database, sampling), dtype, threads)
+    return light_of(database, points, sampling, grid_of(database, sampling), dtype, threads)
 
 
 @one_blas_thread
@@ -107,39 +108,39 @@ def light_of(
     database: Database,
     points: Points,
     sampling: Sampling,
-    across: int,
+    grid: FineGrid | None,
     dtype: DTypeLike = np.float32,
     threads: int | None = None,
 ) -> np.ndarray:
-    """Return `rendered_light` for a known ``across`` from `samples_per_pixel`, which evaluates every depth and colour.
+    """Return `rendered_light` for a known `grid_of`, which evaluates every depth and colour.
 
     Each thread takes one PSF after the other: the finer samples may be a hundred times as many.
     """
-    if across == 1:
+    if grid is None:
         return render_source(database, points, sampling, dtype, threads)
-    fine = fine_sampling(sampling, sampling.pixel_um or critical_pixel_um(database), across)
+    fine = fine_sampling(sampling, grid)
     places = np.broadcast_arrays(*points)
     shape = places[0].shape
     found = np.empty((*shape, sampling.pixels, sampling.pixels), dtype)
 
     def fill(index: tuple[int, ...]) -> None:
         one = render_source(database, [place[index] for place in places], fine, dtype)
-        light = pixel_integrals.light_per_pixel(one, sampling.pixels, across)
+        light = grid.light(one)
         found[index] = light / light.sum(dtype=float)
 
     map_threads(fill, np.ndindex(shape), threads)
     return found
 
 
-def fine_sampling(sampling: Sampling, pixel_um: float, across: int) -> Sampling:
-    """Return the samples to be summed over pixels of this pitch, ``across`` of them along each."""
-    return replace(sampling, pixels=pixel_integrals.fine_side(sampling.pixels, across), pixel_um=pixel_um / across)
+def fine_sampling(sampling: Sampling, grid: FineGrid) -> Sampling:
+    """Return the samples of a grid in the quality asked for."""
+    return replace(sampling, pixels=grid.side, pixel_um=grid.pitch_um)
 
 
-def samples_per_pixel(database: Database, sampling: Sampling) -> int:
-    """Return the number of samples across a pixel for its light; 1 for point samples."""
+def grid_of(database: Database, sampling: Sampling) -> FineGrid | None:
+    """Return the samples that the light on pixels takes; None for point samples."""
     critical = critical_pixel_um(database)
-    return pixel_integrals.samples_across(sampling.pixels, sampling.pixel_um or critical, critical)
+    return fine_grid(sampling.pixels, sampling.pixel_um or critical, critical)
 
 
 def pixels_psf(
@@ -148,7 +149,7 @@ def pixels_psf(
     """Return `database_psf` as light per pixel or as samples, by default light where the pitch exceeds λ/(4 NA)."""
     check_samples(pixels, pixel_um)
     six = database.coefficients(float(source.depth_mm), float(source.field_slope), float(source.wavelength_um))
-    psf = pixel_integrals.integrate(
+    psf = integrate(
         lambda count, pitch: database_psf(database, source, count, pitch),
         pixels,
         pixel_um or float(suitable_pixel_um(six, pixels)),

@@ -12,7 +12,7 @@ from p2sf.database.files.npz import load_database
 from p2sf.database.files.place import is_stack
 from p2sf.database.files.provenance import Stored
 from p2sf.database.files.stack import open_stack, read_psfs
-from p2sf.database.render import Sampling, critical_pixel_um, light_of, samples_per_pixel
+from p2sf.database.render import Sampling, critical_pixel_um, grid_of, light_of
 from p2sf.errors import DatabaseError
 from p2sf.figures.record import CONVENTIONS, UNITS
 from p2sf.files.writing import plain
@@ -124,13 +124,13 @@ def open_cube(
     space = stored.database.space
     _check_size(path, (*space.shape, sampling.pixels, sampling.pixels))
     sampling = replace(sampling, pixel_um=pitch)
-    across = samples_per_pixel(stored.database, sampling)
+    grid = grid_of(stored.database, sampling)
     values = np.empty((*space.shape, sampling.pixels, sampling.pixels), np.float32)
     places = np.broadcast_arrays(*space.axes)
     for done, index in enumerate(np.ndindex(space.shape[:2]), 1):  # a depth and a field, in all colours
-        values[index] = light_of(stored.database, [place[index] for place in places], sampling, across)
+        values[index] = light_of(stored.database, [place[index] for place in places], sampling, grid)
         tell(done / (space.shape[0] * space.shape[1]))
-    return Cube(values, pitch, stored, across > 1)
+    return Cube(values, pitch, stored, grid is not None)
 
 
 def check_line(stored: Stored) -> None:

@@ -1,19 +1,19 @@
-"""The light on square pixels, for exported files: a finer PSF summed over each pixel.
+"""PSFs as the light on square pixels where samples farther apart than λ/(4 NA) would miss what lies between them.
 
-Samples farther apart than λ/(4 NA) miss the rings between them and do not represent the light around them (handbook
-6.6).
+See handbook 6.6.
 """
 
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from math import ceil, inf
+from math import inf
 
 import numpy as np
 
 from p2sf.errors import SamplingError
+from p2sf.figures.pixel_light import LARGEST, FineGrid, fine_grid
 from p2sf.figures.psf_data import Figure, Later, PsfFigures
-from p2sf.figures.window import ROUNDING, critical_pixel_um
+from p2sf.figures.window import critical_pixel_um
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
@@ -21,14 +21,12 @@ from p2sf.psf.huygens import FRINGES_OF_SPHERES
 from p2sf.psf.methods import AUTO, REFERENCE, SPHERICAL, USUAL, PsfOptions, method_of, render, whole_pixel_um
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_samples
-from p2sf.pupil.binning import bin_samples
 from p2sf.raytrace.exit_sphere import exit_sphere
 from p2sf.raytrace.field_geometry import cone
 from p2sf.raytrace.fit import level_rays, levels_for
 from p2sf.raytrace.pencil import pencil, rays_through
 from p2sf.raytrace.vignetting import pupil_nodes
 
-LARGEST = 2048  # fine samples a side: beyond, sums take minutes
 RAYS = 24, 96  # radii × directions for the share of light in a window
 
 
@@ -41,37 +39,6 @@ def critical_pixel_of_spheres(lens: Lens, source: Source) -> float:
     rays = sphere.seen_from(pencil(lens, source, xi, eta).arrived)[0]
     spread = float(np.hypot(rays.fx, rays.fy).max(initial=0.0))
     return 1 / (4 * FRINGES_OF_SPHERES * spread) if spread else inf  # where no ray arrives, the sum says so
-
-
-def samples_across(pixels: int, pixel_um: float, finest_um: float, fewest: float = 1.0) -> int:
-    """Return an odd number of samples across each pixel, within half of ``finest_um`` of each other; 1 for points.
-
-    Pixels up to ``finest_um`` wide are points; if ``fewest`` is less than 1, only those up to that share of it.
-
-    The error of the sum arises only at the edges of the pixel and is proportional to the fourth power of the pitch: in
-    the centre of an Airy pattern it is 4e-3 with 5 samples at ``finest_um``, 3e-4 at half. The coarser pitch is used if
-    the finer one takes more than LARGEST samples a side, and points if even that does, or if pixels are as narrow as
-    ``finest_um``.
-    """
-    ratio = pixel_um / finest_um * (1 - ROUNDING)
-    counts = (max(3, ceil(2 * ratio) | 1), ceil(ratio) | 1) if ratio > fewest else ()
-    return next((across for across in counts if fine_side(pixels, across) <= LARGEST), 1)
-
-
-def fine_side(pixels: int, across: int) -> int:
-    """Return the samples a side whose first ``pixels``·``across`` cover the pixels.
-
-    Sample N//2 is the chief ray in either grid, so an even number of pixels starts half a pixel lower.
-    """
-    return pixels * across + (0 if pixels % 2 else across - 1)
-
-
-def light_per_pixel(fine: np.ndarray, pixels: int, across: int) -> np.ndarray:
-    """Return the light per pixel, (…, pixels, pixels), of `fine_side` samples a side."""
-    count = pixels * across
-    planes = fine.reshape(-1, *fine.shape[-2:])[:, :count, :count]
-    light = np.stack([bin_samples(plane, pixels, across) for plane in planes])
-    return light.reshape(*fine.shape[:-2], pixels, pixels)
 
 
 def integrate(
@@ -90,8 +57,8 @@ def integrate(
     what a warning takes in its place.
     """
     check_samples(pixels, pixel_um)
-    across = samples_across(pixels, pixel_um, finest_um, 0.0 if wanted else 1.0)
-    if wanted and across == 1:
+    grid = fine_grid(pixels, pixel_um, finest_um, narrow_too=bool(wanted))
+    if wanted and grid is None:
         raise SamplingError(
             "the light on {pixels} pixels of {pixel_um:g} µm takes more than {most} samples a side; give fewer or "
             "smaller pixels, or {parameter} False",
@@ -100,32 +67,34 @@ def integrate(
             most=LARGEST,
             parameter="integrated",
         )
-    if across == 1:
+    if grid is None:
         return render_at(pixels, pixel_um)
     if wanted is False:
         points = render_at(pixels, pixel_um)
         if points.figures.energy is not None:
             return points
         guess = None if estimate is None else partial(estimate, points)
-        share = Later(lambda: _light_on_pixels(render_at, pixels, pixel_um, across).energy, guess)
+        share = Later(lambda: _light_on_pixels(render_at, grid).energy, guess)
         return points.with_figures(energy=share)
-    return _light_on_pixels(render_at, pixels, pixel_um, across)
+    return _light_on_pixels(render_at, grid)
 
 
-def _light_on_pixels(render_at: Callable[[int, float], Psf], pixels: int, pixel_um: float, across: int) -> Psf:
-    """Return the PSF as light per pixel, ``across`` samples along each side of it."""
-    fine = render_at(fine_side(pixels, across), pixel_um / across)
-    light = light_per_pixel(fine.values, pixels, across)
+def _light_on_pixels(render_at: Callable[[int, float], Psf], grid: FineGrid) -> Psf:
+    """Return the PSF as light per pixel, from the samples of a grid."""
+    fine = render_at(grid.side, grid.pitch_um)
+    light = grid.light(fine.values)
     share = light.sum((-2, -1))  # of the light in the finer window, which may be a little larger
 
     return replace(
         fine.with_figures(energy=partial(_part_of_light, fine.figures, share if share.ndim else float(share))),
         values=light / share[..., None, None],
-        pixel_um=pixel_um,
-        sampling=Message("{sampling}; {across} × {across} samples per pixel", sampling=fine.sampling, across=across),
+        pixel_um=grid.pixel_um,
+        sampling=Message(
+            "{sampling}; {across:.3g} × {across:.3g} samples per pixel", sampling=fine.sampling, across=grid.per_pixel
+        ),
         error=None,
         integrated=True,
-        sum_over_peak=None if fine.sum_over_peak is None else fine.sum_over_peak * share / across**2,
+        sum_over_peak=None if fine.sum_over_peak is None else fine.sum_over_peak * share / grid.per_pixel**2,
     )
 
 

@@ -22,9 +22,11 @@ from p2sf.pupil.phasors import cosine_sine
 BLOCK = 4096
 MOST_PRODUCTS = 2**20  # nodes × samples above which a non-uniform FFT is faster
 NUFFT_ERROR = {np.dtype(np.float64): 1e-14, np.dtype(np.float32): 1e-6}  # in units of the round-off of each precision
-COARSE_ERROR = 1e-9  # least that a grid 1.25 times as fine as the samples allows, where 2 times is slow
-MANY_SAMPLES = 2**15  # beyond which that one is taken, whose square, 1e-18, is the error of a picture in R²
-FEW_SAMPLES = 128 * 129  # up to which a plan, which takes as long as a sum, is kept; float32 places carry no more
+# Least that a grid 1.25 times as fine as the samples allows, where 2 times is slow. In float32 places are rounded to
+# some 1e-5 of a turn at the ends of 500 samples anyway.
+COARSE_ERROR = {np.dtype(np.float64): 1e-9, np.dtype(np.float32): 5e-5}
+MANY_SAMPLES = 2**15  # beyond which that one is taken; the square of its error, 1e-18, is that of a picture in R²
+FEW_SAMPLES = 128 * 129  # up to which a plan, which takes as long as a sum, is kept
 SAMPLES_OF_NODE = 8  # of an even picture, from which on a sum over half of them takes less time
 FEW_NODES = 2**13  # which need not be sorted by place
 _here = local()  # ``plan`` keeps plans, which hold the nodes of one sum at a time, apart in each thread
@@ -38,8 +40,8 @@ def sum_plane_waves(
     ``amplitude``, ``kx``, ``ky``: (…, nodes), broadcast; ``x``, ``y``: 1-D, in units of 1/k. ``even``: the nodes
     are one half of a set that is even in kx (folded weights), so the x kernel is a cosine and only |x| matters.
     Precision follows ``kx`` (float32 or float64). On evenly spaced axes, more than MOST_PRODUCTS nodes × samples are
-    summed by a non-uniform FFT, to NUFFT_ERROR of the largest sum that these amplitudes could have, in float64 and of
-    more than MANY_SAMPLES samples to COARSE_ERROR.
+    summed by a non-uniform FFT, to NUFFT_ERROR of the largest sum that these amplitudes could have, of more than
+    MANY_SAMPLES samples to COARSE_ERROR.
     """
     amplitude, kx, ky = np.asarray(amplitude), np.asarray(kx), np.asarray(ky)
     square = x is y
@@ -87,44 +89,41 @@ def _nufft(amplitude: np.ndarray, kx: np.ndarray, ky: np.ndarray, x: np.ndarray,
     steps = [2 * np.pi * (axis[-1] - axis[0]) / max(1, axis.size - 1) for axis in (x, y)]
     middle = float(x[x.size // 2]), float(y[y.size // 2])  # position of Fourier mode 0
     modes = tuple(axis.size for axis in (y, x) if axis.size > 1)
-    transform, precision = _plan(modes, kx.dtype, shape[-1] <= FEW_NODES)
-    fields = np.empty((len(sets[0]), y.size, x.size), np.result_type(precision, np.complex64))
+    transform = _plan(modes, kx.dtype, shape[-1] <= FEW_NODES)
+    fields = np.empty((len(sets[0]), y.size, x.size), np.result_type(kx.dtype, np.complex64))
     for field, weight, across, up in zip(fields, *sets, strict=True):
         if any(middle):
             cycles = np.multiply(across, middle[0], dtype=float) + np.multiply(up, middle[1], dtype=float)
             weight = weight * np.exp(2j * np.pi * cycles)
-        turns = [np.ascontiguousarray(k, precision) * step for k, step in ((up, steps[1]), (across, steps[0])) if step]
+        turns = [np.ascontiguousarray(k) * step for k, step in ((up, steps[1]), (across, steps[0])) if step]
         transform.setpts(*turns)
         transform.execute(weight.astype(fields.dtype), out=field.reshape(modes))
-    return fields.astype(np.result_type(kx.dtype, np.complex64), copy=False).reshape(*shape[:-1], y.size, x.size)
+    return fields.reshape(*shape[:-1], y.size, x.size)
 
 
-def _plan(modes: tuple[int, ...], dtype: np.dtype, few: bool) -> tuple[Any, np.dtype]:
-    """Return a finufft plan for these Fourier modes, and the precision of its nodes."""
+def _plan(modes: tuple[int, ...], dtype: np.dtype, few: bool) -> Any:
+    """Return a finufft plan for these Fourier modes and nodes of this precision."""
     if prod(modes) > FEW_SAMPLES:
         return _new_plan(modes, dtype, few)
     if not hasattr(_here, "plan"):
         _here.plan = lru_cache(maxsize=8)(_new_plan)
-    plan: tuple[Any, np.dtype] = _here.plan(modes, dtype, few)
-    return plan
+    return _here.plan(modes, dtype, few)
 
 
-def _new_plan(modes: tuple[int, ...], dtype: np.dtype, few: bool) -> tuple[Any, np.dtype]:
+def _new_plan(modes: tuple[int, ...], dtype: np.dtype, few: bool) -> Any:
     import finufft
 
-    single = dtype == np.float32 and prod(modes) <= FEW_SAMPLES
-    precision = np.dtype(np.float32 if single else np.float64)
-    exact = single or (dtype == np.float64 and prod(modes) <= MANY_SAMPLES)
+    exact = prod(modes) <= MANY_SAMPLES
     return finufft.Plan(
         1,
         modes,
-        eps=max(NUFFT_ERROR[dtype], 0.0 if exact else COARSE_ERROR),
+        eps=(NUFFT_ERROR if exact else COARSE_ERROR)[dtype],
         isign=1,
-        dtype="complex64" if single else "complex128",
+        dtype=np.result_type(dtype, np.complex64).name,
         nthreads=1,
         upsampfac=2.0 if exact else 1.25,
         spread_sort=0 if few else 1,
-    ), precision
+    )
 
 
 def _block(

@@ -38,7 +38,7 @@ def test_the_costliest_chunks_come_first(tmp_path):
     stack = write_stack(*small(), tmp_path / "a.zarr", SAMPLING, StackProgress(cancelled=lambda: True))
     work, database = StackWork(stack, stack.missing, StackProgress()), stack.stored.database
     assert sorted(work.chunks) == stack.chunks
-    fine = fine_sampling(SAMPLING, SAMPLING.pixel_um, stack.across)
+    fine = fine_sampling(SAMPLING, stack.grid) if stack.grid else stack.sampling
     true = []
     for chunk in work.chunks:
         axes = database.space.depths_mm, database.space.field_slopes, database.space.wavelengths_um

@@ -10,14 +10,15 @@ from p2sf.database.fitted_build import build_fitted
 from p2sf.database.render import Sampling, critical_pixel_um, pixels_psf, render_source, rendered_light
 from p2sf.database.space import Space
 from p2sf.errors import GeometryError, SamplingError
+from p2sf.figures import pixel_light
+from p2sf.figures.pixel_light import FineGrid
 from p2sf.figures.psf_data import Later
 from p2sf.lens.lens import with_aim, with_sensor
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.seidel import coefficients
-from p2sf.psf import pixel_integrals
 from p2sf.psf.methods import render
-from p2sf.psf.pixel_integrals import render_integrated, samples_across
+from p2sf.psf.pixel_integrals import render_integrated
 from p2sf.psf.result import IN_WINDOW, LEAST_LIGHT
 from tests.support.pupil_sums import ray_sum
 
@@ -70,13 +71,8 @@ def test_the_light_of_wide_pixels_is_that_of_the_narrow_ones_inside():
     assert wide.energy == pytest.approx(narrow.energy, abs=1e-4)
 
 
-def test_samples_across_are_odd_and_close_enough():
-    assert [samples_across(9, um, 1.0) for um in (0.5, 1.0, 1.1, 2.9, 3.0, 3.1, 6.0)] == [1, 1, 3, 7, 7, 7, 13]
-    assert [samples_across(256, um, 1.0) for um in (2.9, 4.0, 6.0, 9.0)] == [7, 5, 7, 1]
-
-
 def test_what_takes_too_many_samples_stays_at_points_and_says_so(monkeypatch):
-    monkeypatch.setattr(pixel_integrals, "LARGEST", 100)
+    monkeypatch.setattr(pixel_light, "LARGEST", 100)
     psf = render_integrated(find_lens("fast_gauss_f14"), Source(), "traced", 33, 4.0)
     assert not psf.integrated
     assert psf.values.shape == (33, 33)
@@ -87,7 +83,7 @@ def test_what_takes_too_many_samples_stays_at_points_and_says_so(monkeypatch):
 
 def test_a_window_too_wide_for_waves_holds_the_share_of_rays(monkeypatch):
     """Far from focus an evenly filled stop throws an even disc: the share is the window's part of its area."""
-    monkeypatch.setattr(pixel_integrals, "LARGEST", 100)
+    monkeypatch.setattr(pixel_light, "LARGEST", 100)
     lens = find_lens("achromat_f6")
     lens, width_mm = with_aim(with_sensor(lens, lens.sensor_mm + 20), "paraxial"), 64 * 0.02
     psf = render_integrated(lens, Source(), "fitted", 64, 20.0)
@@ -165,7 +161,7 @@ def test_far_samples_of_a_cut_off_blur_warn_by_its_rays_and_sum_no_second_pictur
     lens, pixel_um = find_lens("achromat_f6"), 5.0
     lens = with_sensor(lens, lens.sensor_mm + 12 * 0.04)  # at f/6 the rays spread by a twelfth of the way
     with monkeypatch.context() as patch:
-        patch.setattr(pixel_integrals, "light_per_pixel", lambda *given: pytest.fail("a second picture is summed"))
+        patch.setattr(FineGrid, "light", lambda *given: pytest.fail("a second picture is summed"))
         with pytest.warns(p2sf.P2SFWarning, match="holds 3"):
             psf = p2sf.render(lens, Source(), "traced", pixels=8, pixel_um=pixel_um, integrated=False)
         assert psf.figures.energy.roughly() == pytest.approx(1 / np.pi, abs=0.02)
@@ -186,11 +182,11 @@ def test_the_light_of_two_far_samples_is_that_of_narrow_ones_between(method):
     light = float(within @ fine.values @ within * fine.energy)
     assert light < 0.75
     assert isinstance(psf.figures.energy, Later) and psf.figures.energy.roughly() < LEAST_LIGHT
-    assert psf.energy == pytest.approx(light, abs=6e-3)  # sums over pixels err by 4e-3 (`samples_across`), six by 2e-3
+    assert psf.energy == pytest.approx(light, abs=6e-3)  # six coefficients err by 2e-3
 
 
 def test_a_wavefront_on_far_samples_is_said_to_be_cut_off():
     """A square of 1.1 λ/NA holds some two thirds of an Airy pattern's light."""
     with pytest.warns(p2sf.P2SFWarning, match="of the light"):
         psf = p2sf.psf_of_opd(np.zeros((128, 128)), na=0.1, wavelength_nm=500, pixels=1, pixel_um=5.5, integrated=False)
-    assert psf.energy == pytest.approx(airy_light(0.1, 0.5, 5.5 / 2), abs=6e-3)  # sums over pixels err by 4e-3
+    assert psf.energy == pytest.approx(airy_light(0.1, 0.5, 5.5 / 2), abs=3e-3)  # the disc is drawn by square cells

@@ -124,7 +124,7 @@ def test_many_nodes_are_the_same_sum_as_few(even, rows, columns, apart):
     parts = [slice(start, start + nodes // 4) for start in range(0, nodes, nodes // 4)]
     few = sum(sum_plane_waves(amplitude[:, some], kx[some], ky[some], x, y, even) for some in parts)
     many = sum_plane_waves(amplitude, kx, ky, x, y, even)
-    error = NUFFT_ERROR[np.dtype(float)] if rows * columns <= MANY_SAMPLES else COARSE_ERROR
+    error = NUFFT_ERROR[np.dtype(float)] if rows * columns <= MANY_SAMPLES else COARSE_ERROR[np.dtype(float)]
     # Errors are stated relative to the root of the sum of squares.
     assert np.abs(many - few).max() < 30 * error * np.linalg.norm(few)
     single = sum_plane_waves(amplitude, kx.astype(np.float32), ky.astype(np.float32), x, y, even)

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from p2sf.errors import ExportError
+from p2sf.figures.pixel_light import fine_grid
 from p2sf.figures.record import versions
 from p2sf.figures.window import critical_pixel_um
 from p2sf.files.writing import write_beside
@@ -15,7 +16,7 @@ from p2sf.io.psf_files import write_psf
 from p2sf.io.record import describe
 from p2sf.messages import Message
 from p2sf.psf.methods import psf_of
-from p2sf.psf.pixel_integrals import fine_side, integrate, samples_across
+from p2sf.psf.pixel_integrals import integrate
 from p2sf.psf.result import Psf
 from p2sf_explorer.compute.lens_files import is_file
 from p2sf_explorer.compute.live import Live
@@ -116,8 +117,8 @@ def light_of(live: Live) -> Psf:
         return psf
     finest = float(critical_pixel_um(psf.wavelength_um, max(own.na_x, own.na_y)))
     pixels = psf.values.shape[0]
-    across = samples_across(pixels, psf.pixel_um, finest)
-    if across == 1 or fine_side(pixels, across) > live.finest:
+    grid = fine_grid(pixels, psf.pixel_um, finest)
+    if grid is None or grid.side > live.finest:
         return psf
     light = integrate(
         lambda count, pitch: psf_of(replace(request, window=(count, pitch))), pixels, psf.pixel_um, finest

@@ -18,8 +18,9 @@ from p2sf.conventions import NM_PER_UM, centred_axis, degrees_from_slope
 from p2sf.database.files.npz import database_from_bytes
 from p2sf.database.files.place import Place, chunk_names, exists, place_of, send, translate_errors
 from p2sf.database.files.provenance import Stored
-from p2sf.database.render import Sampling, critical_pixel_um, samples_per_pixel
+from p2sf.database.render import Sampling, critical_pixel_um, grid_of
 from p2sf.errors import DatabaseError
+from p2sf.figures.pixel_light import FineGrid
 from p2sf.files.writing import plain
 from p2sf.named_arrays import unit_of
 
@@ -75,9 +76,9 @@ class Stack:
         return Sampling(self.psf.shape[-1], self.pixel_um)
 
     @cached_property
-    def across(self) -> int:
-        """Return how many samples across a pixel its light takes."""
-        return samples_per_pixel(self.stored.database, self.sampling) if self.integrated else 1
+    def grid(self) -> FineGrid | None:
+        """Return the samples that the light on its pixels takes; None for points."""
+        return grid_of(self.stored.database, self.sampling) if self.integrated else None
 
     def region(self, chunk: Chunk) -> tuple[slice, ...]:
         """Return the part of the array that a chunk covers."""
@@ -125,7 +126,7 @@ def _create_arrays(draft: Path, stored: Stored, raw: bytes, sampling: Sampling) 
     zarr, shape, pixels = import_optional("zarr"), stored.database.space.shape, sampling.pixels
     names = AXES if len(shape) == 3 else RECTANGLE_AXES
     pixel_um = sampling.pixel_um or critical_pixel_um(stored.database)
-    integrated = samples_per_pixel(stored.database, sampling) > 1
+    integrated = grid_of(stored.database, sampling) is not None
     attributes = {**_attributes(stored, pixel_um), "integrated": integrated}
     group = zarr.create_group(draft, zarr_format=3, attributes=attributes)
     group.create_array(

@@ -74,13 +74,13 @@ def chunk_costs(stack: Stack, chunks: Sequence[Chunk]) -> np.ndarray:
     ends = np.array([[slopes[0], slopes[-1]] for slopes in of_chunks]).reshape(-1, 2)
     depth, *_, colour = np.array(middle, dtype=int).reshape(-1, len(space.nodes)).T
     sampling = stack.sampling
-    if stack.across > 1:
-        sampling = fine_sampling(sampling, stack.pixel_um, stack.across)
+    if stack.grid:
+        sampling = fine_sampling(sampling, stack.grid)
     found = np.zeros(len(chunks))
     for some in np.array_split(np.arange(len(chunks)), len(chunks) // COSTS_AT_ONCE + 1):
         points = space.depths_mm[depth[some], None], ends[some]
         coefficients = database.coefficients(*points, space.wavelengths_um[colour[some], None])
-        found[some] = products(coefficients, sampling.pixels, stack.pixel_um / stack.across).mean(-1)
+        found[some] = products(coefficients, sampling.pixels, sampling.pixel_um or stack.pixel_um).mean(-1)
     return found * [psf_count(stack, chunk) for chunk in chunks]
 
 
@@ -88,4 +88,4 @@ def write_chunk(stack: Stack, chunk: Chunk) -> None:
     """Render the PSFs of a chunk in this thread and write them atomically."""
     space, region = stack.stored.database.space, stack.region(chunk)
     points = np.ix_(*(nodes[part] for nodes, part in zip(space.nodes, region, strict=True)))
-    stack.psf[region] = light_of(stack.stored.database, points, stack.sampling, stack.across, threads=1)
+    stack.psf[region] = light_of(stack.stored.database, points, stack.sampling, stack.grid, threads=1)

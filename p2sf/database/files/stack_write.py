@@ -9,7 +9,7 @@ from p2sf.database.files.npz import database_bytes, same_database
 from p2sf.database.files.place import exists, failures, place_of
 from p2sf.database.files.stack import TEMPORARY, Chunk, Stack, create, open_stack
 from p2sf.database.files.stack_work import StackProgress, StackWork, write_chunk
-from p2sf.database.render import Database, Sampling, critical_pixel_um, samples_per_pixel
+from p2sf.database.render import Database, Sampling, critical_pixel_um, grid_of
 from p2sf.errors import DatabaseError
 from p2sf.files.reasons import reason
 from p2sf.lens.lens import Lens
@@ -42,7 +42,7 @@ def write_stack(
         if not exists(place):
             create(path, raw, sampling)
     stack = open_stack(path, "r+")
-    asked = sampling.pixels, pitch, samples_per_pixel(database, sampling) > 1
+    asked = sampling.pixels, pitch, grid_of(database, sampling) is not None
     if (stack.psf.shape[-1], stack.pixel_um, stack.integrated) != asked or not same_database(stack.raw, raw):
         raise DatabaseError(
             "{path} holds a stack of another lens, aim, nodes or samples; choose another name or delete it",

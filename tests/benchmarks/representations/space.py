@@ -17,7 +17,7 @@ from p2sf.messages import Message
 from p2sf.paraxial.first_order import cardinal_points
 from p2sf.paraxial.pupils import field_from_object_height, find_stop
 from p2sf.paraxial.seidel import coefficients
-from p2sf.psf.pixel_integrals import fine_side, light_per_pixel
+from p2sf.pupil.binning import bin_samples
 from p2sf.raytrace.fit import fit
 from p2sf.raytrace.ray_field import AIRY_RADIUS
 from p2sf.spans import depth_nodes
@@ -66,11 +66,14 @@ class Window:
     @property
     def fine(self) -> tuple[int, float]:
         """Return the samples a side of the sum behind the pixels, and their pitch, µm."""
-        return fine_side(self.pixels, self.across), self.pixel_um / self.across
+        odd = 0 if self.pixels % 2 else self.across - 1  # sample N//2 is the chief ray's, as pixel N//2 is
+        return self.pixels * self.across + odd, self.pixel_um / self.across
 
     def light(self, fine: np.ndarray) -> np.ndarray:
         """Return unit-sum pictures, (…, pixels, pixels), from `fine` samples of an intensity."""
-        values = np.asarray(fine if self.across == 1 else light_per_pixel(fine, self.pixels, self.across), dtype=float)
+        used = self.pixels * self.across
+        light = fine if self.across == 1 else bin_samples(fine[..., :used, :used], self.pixels, self.across)
+        values = np.asarray(light, dtype=float)
         unit: np.ndarray = values / values.sum((-2, -1), keepdims=True)
         return unit
 

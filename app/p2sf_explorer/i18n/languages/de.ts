@@ -2765,7 +2765,7 @@
 <message><source>{r} λ left</source><translation>{r} λ Rest</translation></message>
 <message><source>{r} λ with tilt</source><translation>{r} λ mit Verkippung</translation></message>
 <message><source>{sampling}; the aligned lens, without its tilts, decentres and irregularities</source><translation>{sampling}; das Objektiv gerade gestellt, ohne seine Kippungen, Dezentrierungen und Passfehler</translation></message>
-<message><source>{sampling}; {across} × {across} samples per pixel</source><translation>{sampling}; {across} × {across} Proben je Pixel</translation></message>
+<message><source>{sampling}; {across:.3g} × {across:.3g} samples per pixel</source><translation>{sampling}; {across:.3g} × {across:.3g} Proben je Pixel</translation></message>
 <message><source>{shading}, for which there are no six coefficients; choose the method fitted, traced or huygens, or leave {parameter} off</source><translation>{shading}, wofür es keine sechs Koeffizienten gibt; das Verfahren fitted, traced oder huygens wählen oder {parameter} aus lassen</translation></message>
 <message><source>{shading}, which the paraxial pupil takes for even; aim at the stop</source><translation>{shading}, was die paraxiale Pupille für gleichmäßig nimmt; auf die Blende zielen</translation></message>
 <message><source>{shape} samples at {pixel_um:g} µm</source><translation>{shape} Proben zu {pixel_um:g} µm</translation></message>
