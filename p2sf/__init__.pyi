@@ -35,7 +35,6 @@ from p2sf.image.exposure import expose as expose
 from p2sf.image.exposure import raw_numbers as raw_numbers
 from p2sf.image.picture import form_image as form_image
 from p2sf.image.picture import sharpen_image as sharpen_image
-from p2sf.io.psf_files import read_psf as read_psf
 from p2sf.io.psf_files import write_psf as write_psf
 from p2sf.io.psf_plot import draw_psf as draw_psf
 from p2sf.lens.lens import Aperture as Aperture
@@ -56,6 +55,7 @@ from p2sf.paraxial.positions import lens_at as lens_at
 from p2sf.paraxial.seidel import Coefficients as Coefficients
 from p2sf.psf.from_opd import psf_of_opd as psf_of_opd
 from p2sf.psf.methods import Choice as Choice
+from p2sf.psf.reading import read_psf as read_psf
 from p2sf.psf.result import Psf as Psf
 from p2sf.pupil.mask import PupilMap as PupilMap
 from p2sf.pupil.mask import PupilMask as PupilMask

@@ -4,7 +4,7 @@ import numpy as np
 
 import p2sf
 from p2sf.figures.psf_data import facts
-from p2sf.io.record import psf_from
+from p2sf.psf.reading import psf_from
 
 
 def test_a_file_with_a_former_field_is_read():

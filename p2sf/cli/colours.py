@@ -10,12 +10,13 @@ from p2sf.cli.screen import Row, heading, print_json, print_table, warn
 from p2sf.colour.colorimetry import chromaticity
 from p2sf.colour.spectrum import spectrum_of
 from p2sf.errors import RequestError
+from p2sf.figures.colour_psf import ColourPsf, record
 from p2sf.io.colour_files import COLOUR_ENDINGS, write_colour_psf
 from p2sf.io.record import describe
 from p2sf.messages import ParameterName
 from p2sf.psf.methods import PsfOptions
 from p2sf.psf.pixel_integrals import render_integrated
-from p2sf.psf.polychromatic import ColourPsf, colour_psf, record, suitable_pitch_um
+from p2sf.psf.polychromatic import colour_psf, suitable_pitch_um
 from p2sf.psf.result import IN_WINDOW
 from p2sf.setting import Setup
 

@@ -8,8 +8,8 @@ from typing import BinaryIO
 import numpy as np
 
 from p2sf.errors import ExportError
+from p2sf.figures.colour_psf import ColourPsf, record
 from p2sf.files.writing import plain, write_beside
-from p2sf.psf.polychromatic import ColourPsf, record
 from p2sf.version import program_version
 
 

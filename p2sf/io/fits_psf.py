@@ -1,4 +1,4 @@
-"""One PSF to and from FITS: the samples as the image, all facts about them in its header."""
+"""One PSF to FITS, and pictures and facts from it: the samples as the image, all facts about them in its header."""
 
 import io
 import json
@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 
 from p2sf.errors import ExportError
+from p2sf.figures.psf_data import PsfData
 from p2sf.files.reading import LONGEST_TEXT, check_samples, open_file, parse_json, size_of
 from p2sf.files.writing import write_beside
-from p2sf.io.record import psf_of_file, with_facts
-from p2sf.psf.result import Psf
+from p2sf.io.record import with_facts
 from p2sf.version import program_version
 
 META = "P2SFMETA"
@@ -22,12 +22,12 @@ SIMPLE, END = b"SIMPLE", b"END     "  # begin and end the head of every FITS fil
 MOST_UNITS = 64  # looked through for a picture
 
 
-def write_psf_fits(psf: Psf, path: str | os.PathLike[str], meta: dict) -> Path:
+def write_psf_fits(psf: PsfData, path: str | os.PathLike[str], meta: dict) -> Path:
     """Write one PSF, shape (y, x), as a FITS image of doubles; return the path. Raises ExportError.
 
     `Psf.record` and ``meta`` go into the header as JSON, over CONTINUE cards (FITS 4.0, 4.2.1.2).
     """
-    fits = _astropy()
+    fits = astropy_fits()
     image = fits.PrimaryHDU(np.asarray(psf.values, dtype=float))
     for axis, name in ((1, "X"), (2, "Y")):
         image.header[f"CTYPE{axis}"] = f"{name} (field along +Y)" if axis == 2 else name
@@ -44,25 +44,12 @@ def write_psf_fits(psf: Psf, path: str | os.PathLike[str], meta: dict) -> Path:
     return write_beside(path, lambda handle: handle.write(content.getbuffer()))
 
 
-def read_psf_fits(path: str | os.PathLike[str]) -> tuple[Psf, dict]:
-    """Return the PSF of a FITS file that `write_psf_fits` wrote, exactly, and its meta. Raises ExportError."""
-    _astropy()
-    try:
-        values, header = first_picture(path)
-        meta = parse_json(header[META])
-        return psf_of_file(values.astype(float), meta), meta
-    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
-        raise ExportError(
-            "{path} is not a PSF that this program wrote as FITS; save the snapshot again", path=str(path)
-        ) from error
-
-
 def first_picture(path: str | os.PathLike[str]) -> tuple[np.ndarray, Any]:
     """Return the samples and the header of a FITS file's first picture, rows up.
 
     Raises ExportError without astropy; OSError, ValueError, KeyError and TypeError for what cannot be read.
     """
-    fits = _astropy()
+    fits = astropy_fits()
     with warnings.catch_warnings(action="ignore"), open_file(path) as stream:
         size = size_of(stream)
         head = stream.read(LONGEST_TEXT)
@@ -85,7 +72,8 @@ def read_meta(path: str | os.PathLike[str]) -> Any:
     return parse_json(first_picture(path)[1][META])
 
 
-def _astropy() -> Any:
+def astropy_fits() -> Any:
+    """Return `astropy.io.fits`; ExportError where it is not installed."""
     try:
         from astropy.io import fits
     except ImportError as error:

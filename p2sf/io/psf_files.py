@@ -1,4 +1,4 @@
-"""One PSF to and from .npz, .tiff and .csv, and to a .png picture."""
+"""One PSF to .npz, .tiff, .csv and a .png picture, and its samples and facts from the first three."""
 
 import json
 import os
@@ -8,13 +8,11 @@ from typing import Any, BinaryIO
 import numpy as np
 
 from p2sf.errors import ExportError
+from p2sf.figures.psf_data import PsfData
 from p2sf.figures.record import CONVENTIONS
-from p2sf.files.atomic import DAMAGED
 from p2sf.files.reading import LONGEST_TEXT, check_unpacked, first_page, open_file, parse_json, read_arrays, size_of
-from p2sf.files.reasons import reason
 from p2sf.files.writing import write_beside
-from p2sf.io.record import caption, psf_of_file, with_facts
-from p2sf.psf.result import Psf
+from p2sf.io.record import caption, with_facts
 from p2sf.version import program_version
 
 UM_PER_CM = 1e4
@@ -22,7 +20,7 @@ CSV_HEAD = 4  # lines before the numbers of a .csv
 ORIENTATION_TAG, BOTTOM_LEFT = 274, 4  # TIFF 6.0, section 8: row 0 is the picture's bottom
 
 
-def write_psf(psf: Psf, path: str | os.PathLike[str], meta: dict | None = None) -> Path:
+def write_psf(psf: PsfData, path: str | os.PathLike[str], meta: dict | None = None) -> Path:
     """Write one PSF, shape (y, x), as .npz, .tiff, .csv or .png by the ending of ``path``; return the path.
 
     `Psf.record` is stored with it, and ``meta``, any facts as JSON has them. Raises ExportError for an unknown ending,
@@ -46,39 +44,11 @@ def write_psf(psf: Psf, path: str | os.PathLike[str], meta: dict | None = None) 
     return write_beside(path, lambda handle: write(handle, psf, record))
 
 
-def read_psf(path: str | os.PathLike[str]) -> tuple[Psf, dict]:
-    """Return the PSF in a .npz, .tiff or .csv that this program wrote, and its meta.
-
-    Exact from .npz and .csv, float32 from .tiff. Raises ExportError for a file that is missing or of another kind.
-    """
-    read = READERS.get(Path(path).suffix.lower())
-    if read is None:
-        raise ExportError(
-            '{path}: no PSF can be read from the ending "{ending}"; choose {choices}',
-            path=str(path),
-            ending=Path(path).suffix,
-            choices=tuple(sorted(READERS)),
-        )
-    try:
-        values, meta = read(path)
-        return psf_of_file(values, meta), meta
-    except OSError as error:
-        raise ExportError(
-            "{path} cannot be read, {reason}; check the name",
-            path=str(path),
-            reason=reason(error),
-        ) from error
-    except (ValueError, *DAMAGED) as error:
-        raise ExportError(
-            "{path} is not a PSF that this program wrote; export it again with p2sf psf -o", path=str(path)
-        ) from error
-
-
-def _write_npz(handle: BinaryIO, psf: Psf, meta: dict) -> None:
+def _write_npz(handle: BinaryIO, psf: PsfData, meta: dict) -> None:
     np.savez_compressed(handle, psf=psf.values, x_um=psf.x_um, y_um=psf.y_um, meta=np.array(json.dumps(meta)))
 
 
-def _write_tiff(handle: BinaryIO, psf: Psf, meta: dict) -> None:
+def _write_tiff(handle: BinaryIO, psf: PsfData, meta: dict) -> None:
     import tifffile
 
     per_cm = UM_PER_CM / psf.pixel_um
@@ -94,7 +64,7 @@ def _write_tiff(handle: BinaryIO, psf: Psf, meta: dict) -> None:
     )
 
 
-def _write_csv(handle: BinaryIO, psf: Psf, meta: dict) -> None:
+def _write_csv(handle: BinaryIO, psf: PsfData, meta: dict) -> None:
     lines = [
         f"# point spread function, {CONVENTIONS}",
         "# first row: x in µm; first column: y in µm; cells: fraction of the window's light",
@@ -109,7 +79,7 @@ def _csv_row(head: str, cells: np.ndarray) -> str:
     return ",".join([head, *map(repr, cells.tolist())])
 
 
-def _write_png(handle: BinaryIO, psf: Psf, meta: dict) -> None:
+def _write_png(handle: BinaryIO, psf: PsfData, meta: dict) -> None:
     from p2sf.io.psf_plot import draw_psf
 
     draw_psf(handle, psf, caption(meta), {"Description": json.dumps(meta), "Software": f"p2sf {program_version()}"})
@@ -136,4 +106,5 @@ def _read_csv(path: str | os.PathLike[str]) -> tuple[np.ndarray, Any]:
 
 WRITERS = {".npz": _write_npz, ".tiff": _write_tiff, ".tif": _write_tiff, ".csv": _write_csv, ".png": _write_png}
 READERS = {".npz": _read_npz, ".tiff": _read_tiff, ".tif": _read_tiff, ".csv": _read_csv}
+"""Return the samples and what else the file states; they raise what numpy, the parsers of JSON and `open` do."""
 ENDINGS = tuple(WRITERS)

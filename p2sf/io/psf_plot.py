@@ -7,8 +7,8 @@ import numpy as np
 
 from p2sf.arguments import argument
 from p2sf.colour.colorimetry import srgb_from_linear
-from p2sf.psf.polychromatic import ColourPsf, faint_rgb
-from p2sf.psf.result import Psf
+from p2sf.figures.colour_psf import ColourPsf, faint_rgb
+from p2sf.figures.psf_data import PsfData
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 BAR_SHARE = 0.25  # the scale bar takes at most this share of the width
 
 
-def draw_psf(handle: "BinaryIO | Axes", psf: Psf, title: str = "", metadata: dict | None = None) -> None:
+def draw_psf(handle: "BinaryIO | Axes", psf: PsfData, title: str = "", metadata: dict | None = None) -> None:
     """Draw one PSF: µm axes, scale bar, colour bar in fractions of the peak.
 
     ``handle``: an open binary file, to which a PNG is written, or axes of matplotlib.
@@ -27,7 +27,7 @@ def draw_psf(handle: "BinaryIO | Axes", psf: Psf, title: str = "", metadata: dic
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    psf = argument("psf", psf, Psf)
+    psf = argument("psf", psf, PsfData)
     if isinstance(handle, Axes):
         return _draw(handle, psf, title)
     figure = Figure(figsize=(6.4, 5.4), dpi=150, layout="constrained")
@@ -35,7 +35,7 @@ def draw_psf(handle: "BinaryIO | Axes", psf: Psf, title: str = "", metadata: dic
     return _write_png(figure, handle, metadata)
 
 
-def _draw(axes: "Axes", psf: Psf, title: str) -> None:
+def _draw(axes: "Axes", psf: PsfData, title: str) -> None:
     from matplotlib.colors import PowerNorm
 
     root = PowerNorm(0.5, vmin=0, vmax=1)
@@ -71,7 +71,7 @@ def relative(values: np.ndarray) -> np.ndarray:
     return fractions
 
 
-def edges_um(psf: Psf | ColourPsf) -> tuple[float, float, float, float]:
+def edges_um(psf: PsfData | ColourPsf) -> tuple[float, float, float, float]:
     """Return (left, right, bottom, top) of the picture in µm; samples lie in the middle of their pixels."""
     half = psf.pixel_um / 2
     x, y = psf.x_um, psf.y_um
@@ -91,7 +91,7 @@ def _write_png(figure: "Figure", handle: BinaryIO, metadata: dict | None = None)
     canvas.print_png(handle, metadata=metadata)
 
 
-def _draw_scale_bar(axes: "Axes", psf: Psf | ColourPsf) -> None:
+def _draw_scale_bar(axes: "Axes", psf: PsfData | ColourPsf) -> None:
     """Draw a white bar and its length, with a dark edge that keeps them readable on bright light."""
     from matplotlib.patches import Rectangle
     from matplotlib.patheffects import withStroke

@@ -7,27 +7,19 @@ from dataclasses import fields
 from functools import lru_cache
 from typing import Any
 
-import numpy as np
-
 from p2sf.conventions import NM_PER_UM, depth_of
-from p2sf.figures.psf_data import FIGURES, OWN, PsfFigures
+from p2sf.figures.psf_data import PsfData
 from p2sf.figures.record import true_of_all
 from p2sf.files.writing import plain
 from p2sf.lens.lens import Lens
-from p2sf.messages import Message
 from p2sf.paraxial.pupils import Stop, f_number
-from p2sf.psf.result import Psf
 from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.raytrace.focusing import focused_vergence
 from p2sf.setting import Setup
 
-FORMER = {"tolerance": "error"}
-"""Fields of files before 0.3 by their names today."""
 MAPS = ("phase_map", "amplitude_map")
 RECORD = "p2sf-record"
 """The name of the text in a formed picture that says what it is of."""
-OF_THE_FILE = ("psf", "state")
-"""What a file of a PSF states besides its provenance: what the PSF says about itself, and the window's state."""
 
 
 def describe(setup: Setup) -> dict:
@@ -112,26 +104,10 @@ def common(records: list[dict]) -> dict:
     return found
 
 
-def with_facts(psf: Psf, meta: Mapping[str, Any]) -> dict:
+def with_facts(psf: PsfData, meta: Mapping[str, Any]) -> dict:
     """Return what the file of a PSF states: `Psf.record`, and ``meta`` beside it or in its place."""
     record = psf.record
     return {**record, **plain(meta), "psf": record["psf"]}
-
-
-def psf_of_file(values: np.ndarray, meta: dict) -> Psf:
-    """Return the PSF of a file's samples and record; KeyError or TypeError where that is not of a PSF."""
-    provenance = {name: value for name, value in meta.items() if name not in OF_THE_FILE}
-    return psf_from(values, meta["psf"]).with_figures(provenance=provenance)
-
-
-def psf_from(values: np.ndarray, known: dict) -> Psf:
-    """Return a PSF of its samples and its `facts`; TypeError where these are not a PSF's."""
-    peak = known.get("peak_um")
-    read = {"sampling": Message(str(known.get("sampling", ""))), "peak_um": peak and tuple(peak)}
-    known = {FORMER.get(name, name): value for name, value in known.items()}
-    known |= read
-    figures = PsfFigures(**{name: known[name] for name in FIGURES if name in known})
-    return Psf(values, figures=figures, **{name: known[name] for name in OWN if name in known})
 
 
 def caption(meta: dict) -> str:

@@ -11,13 +11,13 @@ from p2sf.errors import ExportError, RequestError
 from p2sf.files.atomic import DAMAGED
 from p2sf.files.reading import check_samples, read_array, read_arrays
 from p2sf.files.reasons import ContentRefusedError, OversizedError, reason
-from p2sf.io.fits_psf import first_picture, read_psf_fits
+from p2sf.io.fits_psf import first_picture
 from p2sf.io.photo_files import READABLE, photo_of, read_samples
-from p2sf.io.psf_files import read_psf
 from p2sf.measure.frame import Frame, FrameGeometry, Noise, calibrate
 from p2sf.measure.listings import read_listing
 from p2sf.messages import Message
 from p2sf.parameters import check_positive
+from p2sf.psf.reading import read_psf, read_psf_fits
 
 FITS = (".fits", ".fit", ".fts")
 ENDINGS = (*READABLE, *FITS, ".npy", ".npz", ".txt")

@@ -1,17 +1,18 @@
 """The colour PSF: the sum of one PSF per wavelength at its position, in CIE XYZ (handbook 9.1)."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import isfinite, pi
 from time import perf_counter
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from p2sf.colour.colorimetry import bands, displayable, linear_rgb
+from p2sf.colour.colorimetry import bands
 from p2sf.colour.spectrum import Spectrum
-from p2sf.conventions import NM_PER_UM, UM_PER_MM, FloatOrArray, centred_axis
+from p2sf.conventions import UM_PER_MM
 from p2sf.errors import RequestError
+from p2sf.figures.colour_psf import ColourPsf
 from p2sf.lens.lens import Lens, lens_range_um, seen_from
 from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import Stop
@@ -32,37 +33,6 @@ TRIED = 9  # wavelengths that determine the width of a window
 
 Renderer = Callable[[Lens, Source, int, float], Psf]
 """A function that renders one PSF: (lens, source at one wavelength, pixels, µm per pixel)."""
-
-
-@dataclass(frozen=True, eq=False)
-class ColourPsf:
-    """X, Y, Z of the image of a point, ``xyz`` (y, x, 3), rows +y; sample N//2 is the chief ray of the source's colour.
-
-    Y sums to ``light_in_window``, the share of all light that falls into it; None if samples are too far apart to
-    determine it, and then Y sums to an estimate. ``wavelengths_um`` were rendered by ``methods``; ``shift_um``: height
-    of each chief ray above that of the source's colour, ``aside_um``: its distance to the right, 0 for a symmetric
-    lens.
-    """
-
-    xyz: np.ndarray
-    pixel_um: float
-    spectrum: str
-    wavelengths_um: np.ndarray
-    shift_um: np.ndarray
-    methods: tuple[str, ...]
-    seconds: float
-    light_in_window: float | None = None
-    aside_um: FloatOrArray = 0.0
-
-    @property
-    def x_um(self) -> np.ndarray:
-        """Column positions, µm."""
-        return centred_axis(self.xyz.shape[1], self.pixel_um)
-
-    @property
-    def y_um(self) -> np.ndarray:
-        """Row positions, µm."""
-        return centred_axis(self.xyz.shape[0], self.pixel_um)
 
 
 @one_blas_thread
@@ -194,32 +164,3 @@ def _move_rows(values: np.ndarray, rows: int) -> np.ndarray:
     if abs(rows) < count:
         out[max(0, rows) : count + min(0, rows)] = values[max(0, -rows) : count - max(0, rows)]
     return out
-
-
-def screen_rgb(found: ColourPsf) -> np.ndarray:
-    """Return linear sRGB, (y, x, 3), the brightest channel 1."""
-    rgb = displayable(linear_rgb(found.xyz))
-    scaled: np.ndarray = rgb / (float(rgb.max()) or 1.0)
-    return scaled
-
-
-def faint_rgb(found: ColourPsf, stretch: Callable[[np.ndarray], np.ndarray] = np.sqrt) -> np.ndarray:
-    """Return linear sRGB as `screen_rgb` does, with the brightest channel of each sample stretched at constant hue."""
-    rgb = screen_rgb(found)
-    top = rgb.max(-1, keepdims=True)
-    stretched: np.ndarray = rgb * np.divide(stretch(top), top, out=np.zeros_like(top), where=top > 0)
-    return stretched
-
-
-def record(found: ColourPsf) -> dict:
-    """Return all data of a colour PSF except the samples, by name."""
-    return {
-        "spectrum": found.spectrum,
-        "pixel_um": found.pixel_um,
-        "wavelengths_nm": found.wavelengths_um * NM_PER_UM,
-        "chief_ray_shift_um": found.shift_um,
-        **({"chief_ray_aside_um": found.aside_um} if np.any(found.aside_um) else {}),
-        "methods": list(found.methods),
-        "light_in_window": found.light_in_window,
-        "seconds": found.seconds,
-    }

@@ -208,7 +208,7 @@ class Psf(PsfData):
 
     def plot(self, axes: "Axes | None" = None) -> "Axes":
         """Draw the PSF on axes of matplotlib, new ones by default, and return them; see `p2sf.draw_psf`."""
-        from p2sf import draw_psf
+        from p2sf.io.psf_plot import draw_psf
 
         if axes is None:
             from matplotlib import pyplot
@@ -236,7 +236,7 @@ class Psf(PsfData):
 
     def save(self, path: str | PathLike[str]) -> Path:
         """Write the PSF to a file, .npz, .tiff, .csv or .png by its ending; see `p2sf.write_psf`."""
-        from p2sf import write_psf
+        from p2sf.io.psf_files import write_psf
 
         return write_psf(self, path)
 
@@ -245,7 +245,7 @@ class Psf(PsfData):
             return None
         from io import BytesIO
 
-        from p2sf import draw_psf
+        from p2sf.io.psf_plot import draw_psf
 
         picture = BytesIO()
         draw_psf(picture, self)

@@ -8,13 +8,13 @@ import pytest
 from p2sf.cli import main
 from p2sf.database.files.npz import load_database
 from p2sf.database.files.stack import open_stack
-from p2sf.io.psf_files import read_psf
 from p2sf.lens.lens import with_f_number
 from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.psf.prediction import ALLOWED
+from p2sf.psf.reading import read_psf
 from tests.database.test_npz import damaged
 
 GRID = ("--depths-mm", "500:inf:5", "--fields-deg", "0:14:3", "--wavelengths-nm", "450:650:3", "--method", "seidel")

@@ -8,8 +8,8 @@ import pytest
 import p2sf
 from p2sf.cli import main
 from p2sf.cli.cautions import long_sum
-from p2sf.io.psf_files import read_psf
 from p2sf.lensfile.library import find_lens
+from p2sf.psf.reading import read_psf
 from p2sf.psf.result import IN_WINDOW
 from p2sf.setting import Request, set_up
 

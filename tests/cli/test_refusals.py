@@ -11,7 +11,6 @@ from p2sf.colour.spectrum import relative_power, spectrum_of
 from p2sf.errors import ExportError, GeometryError, LensFileError, RequestError, SamplingError
 from p2sf.glass.media import ConstantIndex, catalogue_glass
 from p2sf.io.photo_files import read_photo
-from p2sf.io.psf_files import read_psf
 from p2sf.lens.lens import Aperture, Lens, Surface, with_aim
 from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement
@@ -21,6 +20,7 @@ from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.lensfile.writing import SILICA_LABEL, write_lens
 from p2sf.paraxial.pupils import pupils
 from p2sf.psf.huygens import huygens_psf
+from p2sf.psf.reading import read_psf
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.spot import spot
 from p2sf.scene.files import read_scene

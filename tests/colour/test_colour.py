@@ -10,6 +10,7 @@ from p2sf.cli import main
 from p2sf.colour import colorimetry as colour
 from p2sf.colour.spectrum import Spectrum, black_body, daylight, spectrum_of
 from p2sf.errors import ExportError, RequestError
+from p2sf.figures.colour_psf import faint_rgb, screen_rgb
 from p2sf.io.colour_files import write_colour_psf
 from p2sf.lens.lens import with_f_number, with_sensor
 from p2sf.lens.source import Source
@@ -212,7 +213,7 @@ def test_a_wrong_command_is_a_sentence(words, said, capsys):
 def test_faint_light_is_lifted_and_keeps_its_hue():
     lens = find_lens("double_gauss_28")
     found = lines(lens, replace(Source(), field_slope=0.1), 486.0, 656.0)
-    plain, faint = polychromatic.screen_rgb(found), polychromatic.faint_rgb(found)
+    plain, faint = screen_rgb(found), faint_rgb(found)
     assert faint.max() == pytest.approx(1) and (faint >= plain - 1e-12).all()
     some = plain.max(-1) > 1e-3
     ratio = [rgb[some] / rgb[some].max(-1, keepdims=True) for rgb in (plain, faint)]

@@ -23,9 +23,10 @@ from p2sf.export.iset import IsetOptions, polygon_area, ray_trace, write_iset
 from p2sf.export.psf_cube import open_cube, open_database
 from p2sf.export.tiff import write_tiff
 from p2sf.figures.psf_data import facts
-from p2sf.io.fits_psf import read_psf_fits, write_psf_fits
+from p2sf.io.fits_psf import write_psf_fits
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.seidel import coefficients
+from p2sf.psf.reading import read_psf_fits
 from p2sf.psf.seidel import seidel_psf
 from p2sf.spans import depth_nodes
 

@@ -22,11 +22,11 @@ from p2sf.files.reading import LARGEST, MOST_MEMBERS, read_array, read_arrays, t
 from p2sf.io.depth_files import read_scene_depths
 from p2sf.io.photo_files import photo_shape, read_photo, read_samples, write_photo
 from p2sf.io.png16 import write_deep
-from p2sf.io.psf_files import read_psf
 from p2sf.lensfile.importing import FORMATS, import_lens
 from p2sf.lensfile.library import lenses_folder
 from p2sf.measure.reading import read_counts
 from p2sf.measure.target import read_target
+from p2sf.psf.reading import read_psf
 from p2sf.scene.files import read_scene
 from p2sf.scene.filters import filter_channels
 from p2sf.studies.complete_trade import load_trades

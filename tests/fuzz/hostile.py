@@ -24,8 +24,8 @@ from p2sf.cli import main
 from p2sf.errors import P2SFError
 from p2sf.io.depth_files import read_scene_depths
 from p2sf.io.photo_files import read_photo
-from p2sf.io.psf_files import read_psf
 from p2sf.lensfile.toml.lens import parse_toml
+from p2sf.psf.reading import read_psf
 from p2sf.scene.filters import filter_channels
 from p2sf.studies.complete_trade import load_trades
 from p2sf_explorer.files.opening import open_file, refusal

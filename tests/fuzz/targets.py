@@ -21,7 +21,6 @@ from p2sf.database.files.sealed import DIGITS, SEAL, seal, unseal
 from p2sf.database.space import Space
 from p2sf.errors import P2SFError
 from p2sf.io.photo_files import read_photo
-from p2sf.io.psf_files import read_psf
 from p2sf.lensfile.agf import read_agf_text
 from p2sf.lensfile.glass_lookup import GlassSources
 from p2sf.lensfile.importing import import_text
@@ -31,6 +30,7 @@ from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
 from p2sf.paraxial.first_order import cardinal_points
 from p2sf.paraxial.pupils import pupils
 from p2sf.paraxial.seidel import coefficients
+from p2sf.psf.reading import read_psf
 from p2sf.scene.files import read_scene
 from p2sf.setting import Request, set_up
 from p2sf_explorer.files.embedded_state import text_inside

@@ -13,10 +13,10 @@ import pytest
 from p2sf.errors import ExportError
 from p2sf.figures.psf_data import PsfFigures, facts
 from p2sf.files.writing import check_place, plain, write_beside, write_json
-from p2sf.io.psf_files import read_psf, write_psf
+from p2sf.io.psf_files import write_psf
 from p2sf.io.psf_plot import edges_um, round_length
-from p2sf.io.record import psf_from
 from p2sf.messages import Message
+from p2sf.psf.reading import psf_from, read_psf
 from p2sf.psf.result import Psf
 
 META = {"lens": {"name": "made_up"}, "setup": {"depth_mm": np.inf, "field_deg": 14.0}}

@@ -13,11 +13,12 @@ import pytest
 import p2sf
 from p2sf.cli import main
 from p2sf.database.render import Sampling
-from p2sf.io.fits_psf import read_psf_fits, write_psf_fits
+from p2sf.io.fits_psf import write_psf_fits
 from p2sf.io.record import describe
 from p2sf.lens.lens import indices
 from p2sf.lensfile.library import shipped_lenses
 from p2sf.paraxial.first_order import abcd
+from p2sf.psf.reading import read_psf_fits
 from p2sf.setting import Request, set_up
 
 CAMERA = p2sf.Camera("tessar", focus_mm=1500, f_number=6.7, blades=7)

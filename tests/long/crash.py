@@ -27,10 +27,11 @@ from p2sf.database.space import Space
 from p2sf.errors import P2SFError
 from p2sf.figures.psf_data import PsfFigures
 from p2sf.io.photo_files import read_photo, write_photo
-from p2sf.io.psf_files import read_psf, write_psf
+from p2sf.io.psf_files import write_psf
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml.lens import read_toml
 from p2sf.lensfile.writing import write_lens
+from p2sf.psf.reading import read_psf
 from p2sf.psf.result import Psf
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.files import recent

@@ -14,12 +14,12 @@ from p2sf.database.build import build_database
 from p2sf.database.files.npz import save_database
 from p2sf.database.space import Space
 from p2sf.errors import LensFileError
-from p2sf.io.fits_psf import read_psf_fits
 from p2sf.io.png_text import HEADER, with_text
-from p2sf.io.psf_files import read_psf, write_psf
+from p2sf.io.psf_files import write_psf
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.psf.methods import render
+from p2sf.psf.reading import read_psf, read_psf_fits
 from p2sf.psf.seidel import seidel_psf
 from p2sf.spans import depth_nodes
 from p2sf_explorer.application.display import NO_DISPLAY, display_problem

@@ -10,10 +10,11 @@ from p2sf.colour.colorimetry import displayable, linear_rgb, matching, srgb_from
 from p2sf.colour.spectrum import relative_power, spectrum_of
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import P2SFError
+from p2sf.figures.colour_psf import ColourPsf, faint_rgb
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
-from p2sf.psf.polychromatic import ColourPsf, colour_psf, faint_rgb, suitable_pitch_um
+from p2sf.psf.polychromatic import colour_psf, suitable_pitch_um
 from p2sf.psf.result import Psf
 from p2sf_explorer.compute.brightness import stretch
 from p2sf_explorer.compute.finer import smooth
