@@ -144,7 +144,7 @@ def render(setup: Setup, picture: Picture) -> Psf:
 
 
 def _from_coefficients(setup: Setup, picture: Picture) -> Psf:
-    from p2sf.figures.window import critical_pixel_um
+    from p2sf.figures.pixel_light import critical_pixel_um
     from p2sf.paraxial.seidel import check_seidel, coefficients
     from p2sf.psf.pixel_integrals import integrate
     from p2sf.psf.seidel import seidel_psf, suitable_pixel_um

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
 
 from p2sf.database.space import Space
-from p2sf.figures import window
+from p2sf.figures import pixel_light
 from p2sf.figures.pixel_light import FineGrid, fine_grid
 from p2sf.lens.source import Source
 from p2sf.paraxial.seidel import Coefficients
@@ -153,7 +153,7 @@ def pixels_psf(
         lambda count, pitch: database_psf(database, source, count, pitch),
         pixels,
         pixel_um or float(suitable_pixel_um(six, pixels)),
-        float(window.critical_pixel_um(six.wavelength_um, six.na)),
+        float(pixel_light.critical_pixel_um(six.wavelength_um, six.na)),
         integrated,
     )
     return replace(psf, azimuth_deg=source.azimuth_deg)
@@ -179,4 +179,4 @@ def critical_pixel_um(database: Database) -> float:
     space = database.space
     # The numerical aperture does not depend on the field.
     found = database.coefficients(space.depths_mm[:, None], space.field_slopes[0], space.wavelengths_um)
-    return float(np.min(window.critical_pixel_um(space.wavelengths_um, found.na)))
+    return float(np.min(pixel_light.critical_pixel_um(space.wavelengths_um, found.na)))

@@ -13,15 +13,21 @@ from math import ceil
 import numpy as np
 
 from p2sf.conventions import write_protect
-from p2sf.figures.window import ROUNDING
 from p2sf.pupil.quadrature import gauss_legendre
 
+ROUNDING = 1e-9
 LARGEST = 2048  # fine samples a side: beyond, sums take minutes
 CLOSER = 1.2  # samples than λ/(4 NA): the window blurs the sinc's edge by a sixth of its width
 HALF_WIDTH, BETA = 10, 8.5  # of the Kaiser window: the light on pixels then errs by 1e-5 to 4e-5, relative L2
 STEPS = 64  # per sample, of the table of integrals
 GAUSS = 8  # nodes in one step
 AT_ONCE = 16  # pixels whose rows of weights are multiplied together: the weights between them are zero
+
+
+def critical_pixel_um(wavelength_um: float | np.ndarray, na: float | np.ndarray) -> np.ndarray:
+    """Return λ/(4 NA), µm, the largest pitch at which samples determine a PSF."""
+    critical: np.ndarray = np.asarray(wavelength_um) / (4 * np.asarray(na))
+    return critical
 
 
 @dataclass(frozen=True)

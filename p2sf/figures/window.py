@@ -14,9 +14,9 @@ from numpy.typing import ArrayLike
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import SamplingError
 from p2sf.figures.enlarge import cubic
+from p2sf.figures.pixel_light import ROUNDING, critical_pixel_um
 from p2sf.figures.psf_data import PsfData
 
-ROUNDING = 1e-9
 ROUND_OFF = 1e-5  # of a pixel: rounding of 32-bit samples of a symmetric line
 NEAR, FINER = 6, 5  # for its energy a PSF is interpolated: within so many pixels of its centre, so much finer
 
@@ -46,15 +46,6 @@ class WindowMtf(NamedTuple):
     frequency_per_mm: np.ndarray
     tangential: np.ndarray
     sagittal: np.ndarray
-
-
-def critical_pixel_um(wavelength_um: float | np.ndarray, na: float | np.ndarray) -> np.ndarray:
-    """Return λ/(4 NA), µm, the largest pitch at which samples determine a PSF.
-
-    An incoherent image holds no frequency above 2NA/λ (Goodman 2005, §6.3).
-    """
-    critical: np.ndarray = np.asarray(wavelength_um) / (4 * np.asarray(na))
-    return critical
 
 
 def resolved(psf: PsfData, na: float | np.ndarray) -> bool:

@@ -11,9 +11,8 @@ from math import inf
 import numpy as np
 
 from p2sf.errors import SamplingError
-from p2sf.figures.pixel_light import LARGEST, FineGrid, fine_grid
+from p2sf.figures.pixel_light import LARGEST, FineGrid, critical_pixel_um, fine_grid
 from p2sf.figures.psf_data import Figure, Later, PsfFigures
-from p2sf.figures.window import critical_pixel_um
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message

@@ -12,7 +12,7 @@ import numpy as np
 
 from p2sf.conventions import NM_PER_UM, centred_axis, slope_from_degrees
 from p2sf.errors import SamplingError
-from p2sf.figures.window import critical_pixel_um
+from p2sf.figures.pixel_light import critical_pixel_um
 from p2sf.lens.lens import Lens, with_aim
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens

@@ -29,7 +29,7 @@ from p2sf.database.files.stack_work import StackProgress, chunk_costs, psf_count
 from p2sf.database.files.stack_write import write_stack
 from p2sf.database.render import Sampling
 from p2sf.database.space import Space
-from p2sf.figures.window import critical_pixel_um
+from p2sf.figures.pixel_light import critical_pixel_um
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.seidel_stack import stack_of

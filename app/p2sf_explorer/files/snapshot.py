@@ -7,9 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from p2sf.errors import ExportError
-from p2sf.figures.pixel_light import fine_grid
+from p2sf.figures.pixel_light import critical_pixel_um, fine_grid
 from p2sf.figures.record import versions
-from p2sf.figures.window import critical_pixel_um
 from p2sf.files.writing import write_beside
 from p2sf.io.png_text import with_text
 from p2sf.io.psf_files import write_psf

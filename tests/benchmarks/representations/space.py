@@ -10,7 +10,7 @@ import numpy as np
 from p2sf.conventions import NM_PER_UM, slope_from_degrees, vergence
 from p2sf.database.space import Space
 from p2sf.errors import GeometryError
-from p2sf.figures.window import ROUNDING
+from p2sf.figures.pixel_light import ROUNDING
 from p2sf.lens.lens import Lens, check_aligned, with_f_number
 from p2sf.lens.source import Source
 from p2sf.messages import Message
