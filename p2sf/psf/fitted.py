@@ -17,8 +17,8 @@ from p2sf.psf.prediction import EDGE_ERROR, predicted_error
 from p2sf.psf.result import Psf
 from p2sf.psf.sums.plane_waves import Counts, Waves, counts_for, disc_words, pupil_amplitude, window_reach_um
 from p2sf.pupil.basis import at_nodes
+from p2sf.pupil.disc_function import DiscFunction
 from p2sf.pupil.domain import ClearNodes
-from p2sf.pupil.interpolation import on_disc
 from p2sf.pupil.mask_nodes import mask_nodes
 from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from p2sf.raytrace.fit import FittedPencil, fit
@@ -136,14 +136,15 @@ def fitted_waves(
 def _on_rings(found: FittedPencil, counts: Counts) -> np.ndarray:
     """Return phase, fx, fy and amplitude at the nodes of the whole disc, (4, nodes).
 
-    As many nodes as orders determine the polynomials, and `on_disc` interpolates them to all others.
+    As many nodes as orders determine the polynomials, and so all others.
     """
     basis = found.level.basis
     order = max(basis.orders)
     coarse = order // 2 + 2, 2 * order + 4
     there = at_nodes(basis, coarse)
     amplitude = found.amplitude @ there.values.fy[: found.amplitude.size]  # its terms are those, or the first of them
-    return on_disc(basis.domain, np.stack([*found.on(there.values), amplitude]), coarse, counts)
+    values = np.stack([*found.on(there.values), amplitude])
+    return DiscFunction(values, coarse, (False, True, False, False), basis.domain).on(counts)
 
 
 def sum_fit(found: FittedPencil, pixels: int, pixel_um: float, quality: str = "settled") -> tuple[np.ndarray, Message]:

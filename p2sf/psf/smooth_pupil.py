@@ -5,7 +5,7 @@ phase, direction and light at any nodes are interpolated from it; held-out rays 
 """
 
 from dataclasses import dataclass
-from functools import lru_cache, partial
+from functools import lru_cache
 
 import numpy as np
 
@@ -13,8 +13,8 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.psf.sums.plane_waves import Counts, Waves, pupil_amplitude
 from p2sf.psf.sums.spherical_waves import waves_from
+from p2sf.pupil.disc_function import BY_ANGLE, BY_RADIUS, DiscFunction
 from p2sf.pupil.domain import PupilDomain
-from p2sf.pupil.interpolation import interpolate_pupil, on_disc
 from p2sf.pupil.quadrature import disc_axes, disc_nodes
 from p2sf.raytrace.exit_sphere import ExitSphere
 from p2sf.raytrace.pencil import Rays, pencil
@@ -26,7 +26,7 @@ COARSE = PROBE, (20, 64)  # radii and directions of the pencils used for interpo
 # Waves at the rim, where the error of interpolation is largest: 1 − R² below 1e-6. One of the amplitude acts as a phase
 # of 1/2π of it.
 CLOSE = 2e-4
-STEP = 1e-4  # of the pupil radius and of a radian, for differences: errors of 1e-8, of round-off 1e-11
+ODD = False, True, False, False, False  # in ξ, by symmetry: phase, fx, fy, amplitude and distance
 
 
 @dataclass(frozen=True)
@@ -71,29 +71,30 @@ def coarse_slopes(lens: Lens, source: Source, sphere: ExitSphere | None = None) 
     """
     rays, domain = coarse_pencil(lens, source, PROBE), lens.pupil_domain
     seen = rays if sphere is None else sphere.seen_from(rays)[0]
-    inside, _ = _inside_and_rim(np.stack([seen.phase, seen.fx, seen.fy]), domain, PROBE)
-    parts = [
-        _polar_slopes(domain, inside, PROBE, *place) for place in (disc_axes(*PROBE), (np.ones(1), rim_angles(PROBE)))
-    ]
+    inside, _ = _inside_and_rim(np.stack([seen.fx, seen.fy]), domain, PROBE, (True, False))
+    parts = [_polar_slopes(inside, *place) for place in (disc_axes(*PROBE), (np.ones(1), rim_angles(PROBE)))]
     return MapSlopes(*(np.concatenate(part, axis=-1).reshape(2, -1) for part in zip(*parts, strict=True)))
 
 
-def _polar_slopes(
-    domain: PupilDomain, values: np.ndarray, coarse: Counts, radius: np.ndarray, theta: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return ∂f/∂ρ·√(1 − ρ²) and ∂f/∂θ at radii × angles, (2, halves, points) each, from values at coarse nodes."""
-    at = partial(interpolate_pupil, domain, values, coarse)
-    by_radius = (at(radius + STEP, theta) - at(radius - STEP, theta))[1:3] / (2 * STEP)
-    by_angle = (at(radius, theta + STEP) - at(radius, theta - STEP))[1:3] / (2 * STEP)
-    by_radius, by_angle = (part.reshape(2, len(domain.halves), -1) for part in (by_radius, by_angle))
+def _polar_slopes(frequencies: DiscFunction, radius: np.ndarray, theta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return ∂f/∂ρ·√(1 − ρ²) and ∂f/∂θ at radii × angles, (2, halves, points) each."""
+    by_radius, by_angle = (
+        frequencies.on_polar(radius, theta, what).reshape(2, len(frequencies.domain.halves), -1)
+        for what in (BY_RADIUS, BY_ANGLE)
+    )
     return by_radius * np.repeat(np.sqrt(1 - radius * radius), theta.size), by_angle
 
 
-def _inside_and_rim(values: np.ndarray, domain: PupilDomain, coarse: Counts) -> tuple[np.ndarray, np.ndarray]:
-    """Return values at the rays of a coarse pencil, (columns, rays), at its nodes and on its rim, each half by half."""
+def _inside_and_rim(
+    values: np.ndarray, domain: PupilDomain, coarse: Counts, odd: tuple[bool, ...]
+) -> tuple[DiscFunction, np.ndarray]:
+    """Return functions through a coarse pencil's nodes, of values at its rays, (columns, rays), and those on its rim.
+
+    Both stand half by half. ``odd`` as `DiscFunction` has it.
+    """
     halves = values.reshape(len(values), len(domain.halves), -1)
     inside, rim = (part.reshape(len(values), -1) for part in np.split(halves, [coarse[0] * coarse[1] // 2], axis=-1))
-    return inside, rim
+    return DiscFunction(inside, coarse, odd, domain), rim
 
 
 def interpolated_waves(
@@ -107,22 +108,19 @@ def interpolated_waves(
     found = _smooth(lens, source, reach_um, sphere)
     if found is None:
         return None
-    coarse, values = found
-    phase, fx, fy, field, *length = on_disc(lens.pupil_domain, values, coarse, counts)
+    phase, fx, fy, field, *length = found.on(counts)
     nodes = lens.pupil_domain.nodes(counts)
     amplitude = pupil_amplitude(nodes.weight * field / (nodes.weight @ field), phase)
     fx, fy = fx.copy(), fy.copy()  # so that phase and field, in the same array, need no memory during the sum
-    rays = coarse_pencil(lens, source, coarse)
+    rays = coarse_pencil(lens, source, found.counts)
     waves = Waves(amplitude, fx, fy, nodes.domain, _farthest_um(rays), reach_um)
     return RayWaves(waves_from(waves, sphere, *length), counts, 0, rays.phase.size)
 
 
-def _smooth(
-    lens: Lens, source: Source, reach_um: float, sphere: ExitSphere | None = None
-) -> tuple[Counts, np.ndarray] | None:
-    """Return the counts of the first sufficient pencil; phase, fx, fy and amplitude at its nodes, (4, nodes).
+def _smooth(lens: Lens, source: Source, reach_um: float, sphere: ExitSphere | None = None) -> DiscFunction | None:
+    """Return phase, fx, fy and amplitude through the first sufficient pencil; None where none is.
 
-    Seen from a ``sphere`` these are the rays that it has, with their distances behind, (5, nodes).
+    Seen from a ``sphere`` these are of the rays that it has, with their distances behind.
     """
     if not mask_seen(lens, source).clear:
         return None
@@ -133,11 +131,11 @@ def _smooth(
             return None
         seen, *length = (rays,) if sphere is None else sphere.seen_from(rays)
         values = np.stack([seen.phase, seen.fx, seen.fy, rays.amplitude, *length])
-        inside, rim = _inside_and_rim(values, domain, coarse)
-        missed = np.abs(interpolate_pupil(domain, inside, coarse, np.ones(1), rim_angles(coarse)) - rim).max(1)
+        inside, rim = _inside_and_rim(values, domain, coarse, ODD[: len(values)])
+        missed = np.abs(inside.on_polar(np.ones(1), rim_angles(coarse)) - rim).max(1)
         uneven = missed[3] / (2 * np.pi * np.abs(rays.amplitude).mean())
         if missed[0] + uneven + (missed[1] + missed[2]) * max(_farthest_um(rays), reach_um) <= CLOSE:
-            return coarse, inside
+            return inside
     return None
 
 

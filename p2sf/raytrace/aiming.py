@@ -19,9 +19,10 @@ from p2sf.lens.source import Source
 from p2sf.messages import Message, ParameterName
 from p2sf.paraxial.first_order import check_depth
 from p2sf.paraxial.pupils import Pupils, Stop, find_stop, pupils
-from p2sf.pupil.domain import PupilDomain
-from p2sf.pupil.zernike import basis, basis_by_powers, gradient
-from p2sf.raytrace.stop_map import StopMap
+from p2sf.pupil.basis import Terms
+from p2sf.pupil.disc_function import Counts, DiscFunction
+from p2sf.pupil.domain import ClearNodes, PupilDomain
+from p2sf.pupil.zernike import basis_by_powers
 from p2sf.raytrace.surface import Beam, Status
 from p2sf.raytrace.trace import Index, launch, per_ray, run
 
@@ -37,8 +38,8 @@ CONTINUATION = (0.2, 0.4, 0.6, 0.8, 1.0)
 ROUGH_ORDER, ROUGH_NODES = 9, (6, 20)  # a guess to 1e-6 of the radius for most lenses, from 60 rays
 PANEL_DEG = 2.0  # of field, over which rough maps are known from five to 1e-9 of the radius
 FIELDS = np.cos((np.arange(5) + 0.5) * (np.pi / 5))  # of these, −1 … 1 over the panel (Chebyshev)
-FINE = (15, (9, 34)), (21, (12, 46))  # orders and nodes of maps that may stand for aiming
-GUESS = 27, (16, 60)  # of the map from which many rays take one step where none stands for aiming
+FINE = (9, 34), (12, 46)  # nodes of maps that may stand for aiming
+GUESS = 16, 60  # of the map from which many rays take one step where none stands for aiming
 NEARLY = 1e-6  # of the pupil's radius: a map that is farther off is not exact at the next order either
 WEIGHT_ERROR = 1e-7  # the most that a launch weight by a map may be off, on the rim
 RIM_RAYS = 9  # by which maps are judged
@@ -505,7 +506,7 @@ def _guess(lens: Lens, source: Source | Sources, enter: Entrance, stop: Stop | N
     if xi.size >= FEW:
         found = _cached_rough_map(lens, source) if known else _rough_map(lens, enter, chief)
         if found is not None:
-            x, y = StopMap.of(ROUGH_ORDER, lens.pupil_domain, *found).at(xi, eta)
+            x, y = np.moveaxis(found.at(xi, eta), -2, 0)
             return x, y
     return _first_order_points(enter, chief, xi, eta)
 
@@ -522,7 +523,7 @@ def _paraxial(enter: Entrance, xi: Nodes, eta: Nodes) -> Point:
 
 
 @lru_cache(maxsize=64)
-def _cached_rough_map(lens: Lens, source: Source) -> Point | None:
+def _cached_rough_map(lens: Lens, source: Source) -> DiscFunction | None:
     """Return the rough map of a source: by those of a few fields near it, else, where one of these loses rays, its own.
 
     Which of the two never depends on what was asked before, so neither does a result. Rays of five fields are traced
@@ -534,41 +535,41 @@ def _cached_rough_map(lens: Lens, source: Source) -> Point | None:
     if known is None:
         return _rough_map(lens, entrance(lens, source), chief)
     powers = (2 * (angle % PANEL_DEG) / PANEL_DEG - 1) ** np.arange(FIELDS.size)
-    return powers @ known[0], powers @ known[1]
+    return replace(known, values=np.tensordot(powers, known.values, 1))
 
 
 @lru_cache(maxsize=64)
-def _maps_over_field(lens: Lens, depth_mm: float, wavelength_um: float, panel: float) -> Point | None:
-    """Return the coefficients of the rough maps in powers of the place in a panel of fields, (powers, terms).
+def _maps_over_field(lens: Lens, depth_mm: float, wavelength_um: float, panel: float) -> DiscFunction | None:
+    """Return the rough maps in powers of the place in a panel of fields, of an aligned lens, values (powers, 2, nodes).
 
-    Of an aligned lens. None where one of the fields loses rays.
+    None where one of the fields loses rays.
     """
     slopes = slope_from_degrees(PANEL_DEG * (panel + (1 + FIELDS) / 2))
-    sources = Sources(depth_mm, slopes, wavelength_um)
-    enter = entrance(lens, sources)
-    found = _rough_map(lens, enter, None, each=True)
+    found = _rough_map(lens, entrance(lens, Sources(depth_mm, slopes, wavelength_um)), None, each=True)
+    if found is None:
+        return None
     rows = np.vander(FIELDS, increasing=True)
-    return None if found is None else (np.linalg.solve(rows, found[0]), np.linalg.solve(rows, found[1]))
+    return replace(found, values=np.tensordot(np.linalg.inv(rows), found.values, 1))
 
 
 @lru_cache(maxsize=16)
-def _map_with_launch(lens: Lens, source: Source) -> StopMap | None:
+def _map_with_launch(lens: Lens, source: Source) -> DiscFunction | None:
     """Return the rough map, with launch weights by its own areas."""
     found = _cached_rough_map(lens, source)
-    return None if found is None else _with_launch(entrance(lens, source), *found, _terms_at(lens, ROUGH_ORDER))
+    return None if found is None else _with_launch(entrance(lens, source), found)
 
 
-def _rough_map(lens: Lens, enter: Entrance, chief: "_Aim | None", each: bool = False) -> Point | None:
-    """Return coefficients of the entrance points x and y over the stop, confirmed by no ray; None if rays are lost.
+def _rough_map(lens: Lens, enter: Entrance, chief: "_Aim | None", each: bool = False) -> DiscFunction | None:
+    """Return the entrance points x and y over the stop, confirmed by no ray; None if rays are lost.
 
     Rays through first-order points land on the stop at scattered points; a least-squares fit over those gives the map
     from the stop back to the pupil without a search. Of several sources, those that lose a ray keep the paraxial map,
     unless ``each`` has to have its own.
-    Without symmetry each has all terms, the even ones first.
     """
-    nodes, rim = _terms_at(lens, ROUGH_ORDER), float(np.max(enter.stop.semi_diameter))
-    x, y = _first_order_points(enter, chief, nodes.xi, nodes.eta)
-    beam = _at_stop(lens, enter, (x, y))
+    domain, rim = lens.pupil_domain, float(np.max(enter.stop.semi_diameter))
+    nodes, terms, at_nodes = _rough_terms(domain)
+    points = _first_order_points(enter, chief, nodes.xi, nodes.eta)
+    beam = _at_stop(lens, enter, points)
     scale = enter.upright / rim
     landed = scale * beam.x, scale * beam.y
     if beam.status.any():
@@ -577,62 +578,37 @@ def _rough_map(lens: Lens, enter: Entrance, chief: "_Aim | None", each: bool = F
             return None
         landed = np.where(met, landed[0], nodes.xi), np.where(met, landed[1], nodes.eta)
     kinds = basis_by_powers(ROUGH_ORDER, *landed)  # even, odd
-    of_x, of_y = (_join_parities([kinds[flag] for flag in lens.pupil_domain.parities(own)]) for own in (True, False))
-    return _least_squares(of_x, x), _least_squares(of_y, y)
-
-
-@dataclass(frozen=True, eq=False)
-class _MapTerms:
-    """Nodes over a domain of the disc, and there the terms of x and of y and their gradients, (terms, nodes).
-
-    x has the terms odd in ξ, y and launch weights the even ones; without symmetry each has the others behind its own.
-    """
-
-    order: int
-    xi: np.ndarray
-    eta: np.ndarray
-    share: np.ndarray
-    of_x: np.ndarray
-    of_y: np.ndarray
-    slopes_x: Point
-    slopes_y: Point
-    domain: PupilDomain
-
-
-def _terms_at(lens: Lens, order: int, counts: tuple[int, int] = ROUGH_NODES) -> _MapTerms:
-    return _map_terms(order, counts, lens.pupil_domain)
-
-
-@lru_cache(maxsize=8)
-def _map_terms(order: int, counts: tuple[int, int], domain: PupilDomain) -> _MapTerms:
-    nodes, kinds = domain.nodes(counts), (domain.parities(True), domain.parities(False))
-    xi, eta = nodes.xi, nodes.eta
-    of_x, of_y = (_join_parities([basis(order, xi, eta, odd) for odd in own]) for own in kinds)
-    gradients = [[gradient(order, xi, eta, odd) for odd in own] for own in kinds]
-    slopes_x, slopes_y = (
-        (_join_parities([d[0] for d in own]), _join_parities([d[1] for d in own])) for own in gradients
+    x, y = (
+        _least_squares(of.of(kinds), values) @ there for of, values, there in zip(terms, points, at_nodes, strict=True)
     )
-    return _MapTerms(order, xi, eta, nodes.weight, of_x, of_y, slopes_x, slopes_y, domain)
+    return _map_of(x, y, ROUGH_NODES, domain)
 
 
-def _join_parities(kinds: list[np.ndarray]) -> np.ndarray:
-    """Return the terms of one parity or of both, one behind the other; of one, as they are."""
-    return kinds[0] if len(kinds) == 1 else np.concatenate(kinds, axis=-2)
+@lru_cache(maxsize=4)
+def _rough_terms(domain: PupilDomain) -> tuple[ClearNodes, tuple[Terms, Terms], Point]:
+    """Return the nodes of rough maps, and the terms of x, odd in ξ by symmetry, and of y, with their values there."""
+    nodes = domain.nodes(ROUGH_NODES)
+    of_x, of_y = (Terms(ROUGH_ORDER, domain.parities(odd)) for odd in (True, False))
+    return nodes, (of_x, of_y), (of_x.values(nodes.xi, nodes.eta), of_y.values(nodes.xi, nodes.eta))
 
 
-def _with_launch(enter: Entrance, x: np.ndarray, y: np.ndarray, at: _MapTerms) -> StopMap:
-    """Return the map with these coefficients of x and y, and with launch weights by its own areas."""
-    (x_xi, x_eta), (y_xi, y_eta) = at.slopes_x, at.slopes_y
-    area = (x @ x_xi) * (y @ y_eta) - (x @ x_eta) * (y @ y_xi)
-    launch = area / enter.radius**2 * _solid_angle(enter, x @ at.of_x, y @ at.of_y)
-    return StopMap.of(at.order, at.domain, x, y, at.of_y @ (at.share * launch))
+def _map_of(x: np.ndarray, y: np.ndarray, counts: Counts, domain: PupilDomain) -> DiscFunction:
+    """Return the map through entrance points at the nodes of counts, each (…, nodes)."""
+    return DiscFunction(np.stack([x, y], -2), counts, (True, False), domain)
+
+
+def _with_launch(enter: Entrance, found: DiscFunction) -> DiscFunction:
+    """Return a map of one source, with launch weights by its own areas as a third function."""
+    (x_xi, y_xi), (x_eta, y_eta) = found.gradient()
+    launch = (x_xi * y_eta - x_eta * y_xi) / enter.radius**2 * _solid_angle(enter, *found.values)
+    return replace(found, values=np.append(found.values, launch[None], axis=0), odd=(*found.odd, False))
 
 
 @lru_cache(maxsize=64)
-def _stop_map(lens: Lens, source: Source, aim_error: float) -> StopMap | None:
+def _stop_map(lens: Lens, source: Source, aim_error: float) -> DiscFunction | None:
     """Return the map through aimed rays that stands for aiming itself; None where rays on the rim disprove it."""
-    for sampling in FINE:
-        found, off, off_weight = _map_through_rays(lens, source, *sampling)
+    for counts in FINE:
+        found, off, off_weight = _map_through_rays(lens, source, counts)
         if off <= aim_error and off_weight <= WEIGHT_ERROR:
             return found
         if not off <= NEARLY:
@@ -641,25 +617,21 @@ def _stop_map(lens: Lens, source: Source, aim_error: float) -> StopMap | None:
 
 
 @lru_cache(maxsize=16)
-def _guessing_map(lens: Lens, source: Source) -> StopMap | None:
+def _guessing_map(lens: Lens, source: Source) -> DiscFunction | None:
     """Return a map through aimed rays, close enough for one step of Newton's method; None where rays are lost."""
-    return _map_through_rays(lens, source, *GUESS)[0]
+    return _map_through_rays(lens, source, GUESS)[0]
 
 
-def _map_through_rays(
-    lens: Lens, source: Source, order: int, counts: tuple[int, int]
-) -> tuple[StopMap | None, float, float]:
+def _map_through_rays(lens: Lens, source: Source, counts: Counts) -> tuple[DiscFunction | None, float, float]:
     """Return a map, and how far points, in radii, and weights are off on the rim; None where rays are lost."""
-    at, enter = _terms_at(lens, order, counts), entrance(lens, source)
-    turn = np.linspace(0, np.pi, RIM_RAYS)
-    held, count = at.domain.points(np.sin(turn), np.cos(turn)), at.xi.size
-    rays = _aim(lens, source, enter, None, np.append(at.xi, held[0]), np.append(at.eta, held[1]), AIM_ERROR)
+    domain, enter, turn = lens.pupil_domain, entrance(lens, source), np.linspace(0, np.pi, RIM_RAYS)
+    nodes, held = domain.nodes(counts), domain.points(np.sin(turn), np.cos(turn))
+    rays = _aim(lens, source, enter, None, np.append(nodes.xi, held[0]), np.append(nodes.eta, held[1]), AIM_ERROR)
     if not np.isfinite(rays.x).all():
         return None, inf, inf
-    true = rays.x, rays.y, np.asarray(rays.launch)
-    x, y = (rows @ (at.share * column[:count]) for rows, column in zip((at.of_x, at.of_y), true[:2], strict=True))
-    found = _with_launch(enter, x, y, at)
-    return found, *_errors_on_rim(found.at(*held), true, enter)
+    count = nodes.xi.size
+    found = _with_launch(enter, _map_of(rays.x[:count], rays.y[:count], counts, domain))
+    return found, *_errors_on_rim(found.at(*held), (rays.x, rays.y, np.asarray(rays.launch)), enter)
 
 
 def _errors_on_rim(
