@@ -104,7 +104,7 @@ def asked_for(lens: str, scene: dict[str, str], room: tuple[int, int], changes: 
     """Return the request for a picture on the stage through a lens as it is set."""
     usual = LENSES.get(lens) or ZOOM[lens]
     state = change(new_state(lens=lens, method="seidel", field_deg=0.0), **(usual | scene | changes))
-    return on_stage(question(live(state, "preview")), room)
+    return on_stage(question(live(state, "preview")).question, room)
 
 
 def row(

@@ -24,7 +24,7 @@ from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.views.image import pixels, planned, question
 from p2sf_explorer.state.state import new_state
 
-asked = question(live(new_state(photo_source=sys.argv[1], photo_pixel_um=None, photo_full=True)))
+asked = question(live(new_state(photo_source=sys.argv[1], photo_pixel_um=None, photo_full=True))).question
 told, begun, cpu = [], time.perf_counter(), time.process_time()
 answer = planned(asked, Progress(told.append))
 pixels(answer.before), pixels(answer.after)

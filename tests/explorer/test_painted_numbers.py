@@ -61,7 +61,7 @@ def test_coma_on_the_painted_map_points_away_from_the_middle_as_its_sign_says(wi
     with +y up and +x to the right.
     """
     state = change(FIRST, solo=("w31",), f_number=2.0)
-    asked = replace(field_map.field_map(live(state, "preview")), window=(64, 0.75))
+    asked = replace(field_map.field_map(live(state, "preview")).question, window=(64, 0.75))
     assert float(paraxial_setup(change(asked.state, field_deg=10.0)).coefficients.w31) < -3
     panel = FieldMapPanel(window.store)
     qtbot.addWidget(panel.widget)
@@ -97,7 +97,7 @@ def third_moment(light: np.ndarray) -> float:
 def test_the_strip_reaches_the_focus_that_balances_spherical_aberration(lens, f_number):
     """Wd = −W40 at the paraxial focus: Δz = −2λW40/NA² (Mahajan 1991, §8.3)."""
     state = change(with_lens(FIRST, lens), field_deg=0.0, f_number=f_number)
-    strip, c = through_focus.strip(live(state, "preview")), paraxial_setup(state).coefficients
+    strip, c = through_focus.strip(live(state, "preview")).question, paraxial_setup(state).coefficients
     depth = float(c.wavelength_um) / float(c.na) ** 2
     balanced = -2 * depth * float(c.w40 + c.w20 + c.wd)
     assert abs(float(c.w40)) > 1 and strip.shifts_um[0] <= balanced - depth < balanced + depth <= strip.shifts_um[-1]
@@ -182,7 +182,7 @@ def test_a_sweep_turns_without_a_jump(key):
 def test_rays_in_space_start_at_a_near_object_and_before_the_lens_for_a_far_one(depth_mm):
     """All from one point of a near object; from 45 % of the drawing's length before the lens where that is nearer."""
     answer = live(change(FIRST, depth_mm=depth_mm, field_deg=5.0, f_number=8.0, focus_mm=2000.0), "preview")
-    shown, drawn = scene(answer), answer.layout.drawing
+    shown, drawn = scene(answer).found, answer.layout.drawing
     starts, next_ = shown.rays[:, 0], shown.rays[:, 1]
     before = min(depth_mm, 0.45 * (drawn.right - drawn.left) - drawn.left)
     assert starts[:, 2] == pytest.approx(np.full(len(starts), -before)) and before > 0
@@ -247,7 +247,7 @@ def test_a_surface_is_never_brighter_than_its_colour_and_never_black():
 
 
 def test_nodes_of_the_map_are_an_upright_and_a_diagonal_cross_about_their_places(window, qtbot):
-    asked = replace(field_map.field_map(live(FIRST, "preview")), window=(16, 5.0))
+    asked = replace(field_map.field_map(live(FIRST, "preview")).question, window=(16, 5.0))
     places = {"coma": (-0.35, 0.25), "astigmatism": (0.35, -0.25)}  # between the tiles of pictures that are dark
     asked = replace(asked, nodes=tuple((name, *place) for name, place in places.items()))
     panel = FieldMapPanel(window.store)

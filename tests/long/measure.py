@@ -352,7 +352,7 @@ def deblur() -> None:
         write_photo(photo, blurred + np.random.default_rng(1).normal(0, noise, blurred.shape), "linear")
         entries = {"lens": "cooke_triplet", "f_number": 4.0, "wavelength_nm": 550.0, "field_deg": 2.0}
         state = new_state(**entries, measured_picture=str(points), method="seidel")
-        found = answer(with_file_date(question(live(state))), lambda: False, lambda share: None).whole
+        found = answer(with_file_date(question(live(state)).question), lambda: False, lambda share: None).whole
         taken = change(state, **into_image(found, pitch, state), photo_source=str(photo))
         print(f"deblurring, sensor {shift:g} µm too far, measured {taken.optics.sensor_shift_um:.2f} µm")
         for name, um in (("measured", taken.optics.sensor_shift_um), ("it is", shift), ("designed", 0.0)):
@@ -362,7 +362,7 @@ def deblur() -> None:
 
 def levels(state: State, truth: np.ndarray) -> tuple[float, float]:
     """Return the PSNR of a photo sharpened in the Image panel, and of the photo, without their borders."""
-    asked = image.question(live(state))
+    asked = image.question(live(state)).question
     made = image.planned_picture(asked)
     top = round((truth.shape[0] - asked.shape[0]) / 2 - 1000 * asked.centre_mm / asked.pixel_um)
     left = (truth.shape[1] - asked.shape[1]) // 2

@@ -237,7 +237,7 @@ class Window:
 
     def panel(self, key: str, answer: Any) -> Any:
         """Return a panel that shows an answer; P2SFError where it has nothing to show."""
-        from p2sf_explorer.compute.live import Refused, with_views
+        from p2sf_explorer.compute.live import with_views
         from p2sf_explorer.panels import build
         from p2sf_explorer.state.panels import REGISTRY, view_of
         from p2sf_explorer.store.late_answers import LateAnswers
@@ -246,8 +246,8 @@ class Window:
         entry = next(entry for entry in REGISTRY if entry.key == key)
         view = view_of(entry)
         answer = with_views(answer, {key: view} if view else {}, 0.0)
-        if isinstance(answer.views.get(key), Refused):
-            raise P2SFError(answer.views[key].message)
+        if key in answer.views and (why := answer.views[key].why):
+            raise P2SFError(why)
         if key not in self.panels:
             self.panels[key] = build(entry, Store(answer.state))
             self.panels[key].restyle(self.theme)
@@ -309,7 +309,7 @@ class Window:
             except P2SFError as error:
                 yield points[0], Shown("matrix", what, method, refused=str(error))
                 continue
-            tiles = settle(matrix(answer).request, lambda: False, lambda *_: None)
+            tiles = settle(matrix(answer).found.request, lambda: False, lambda *_: None)
             for at, (tile,) in zip(points, tiles, strict=True):
                 text = tile.figure.text(WINDOW) if tile.content is not None else ""
                 for word in named:
@@ -407,7 +407,7 @@ def harms_in_the_window(at: Point, window: Window) -> dict[tuple[str, int], tupl
     from p2sf_explorer.state.state import ToleranceView
 
     try:
-        asked = question(window.live(at, "seidel" if at.field_deg == 0 else "traced"))
+        asked = question(window.live(at, "seidel" if at.field_deg == 0 else "traced")).question
         found = figures(Analyst().answer(asked.request, lambda: False, lambda _: None), asked.view)
     except P2SFError as error:
         return str(error)

@@ -12,7 +12,7 @@ from p2sf.messages import Message
 from p2sf.metrics.wavefront_map import WavefrontMap, disc, map_of_samples
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.deferred_sums import Request, SumCache
-from p2sf_explorer.compute.live import Live, ResultFunction
+from p2sf_explorer.compute.live import Live, ViewFunction
 from p2sf_explorer.compute.method import Least
 from p2sf_explorer.compute.setup import prescription
 from p2sf_explorer.state.panels import PANELS, REGISTRY
@@ -57,7 +57,7 @@ class Answers:
 def answers(
     state: State,
     quality: str,
-    views: Mapping[str, ResultFunction],
+    views: Mapping[str, ViewFunction],
     last: Answers | None = None,
     cache: SumCache | None = None,
 ) -> Answers:
@@ -121,7 +121,7 @@ def larger(one: Least, other: Least) -> bool:
     return one[0] > other[0] or one[1] > other[1] * (1 + 1e-9)
 
 
-def choose_side(state: State, a: Live, b: Live, views: Mapping[str, ResultFunction], begun: float) -> Live:
+def choose_side(state: State, a: Live, b: Live, views: Mapping[str, ViewFunction], begun: float) -> Live:
     """Return the answer on screen, its views computed."""
     from p2sf_explorer.compare.differences import subtract
 
@@ -136,7 +136,7 @@ def choose_side(state: State, a: Live, b: Live, views: Mapping[str, ResultFuncti
     return replace(chosen, views={name: view for name, (view, _) in found.items()}, side=DIFFERENCE, difference=minus)
 
 
-def second_side(state: State, a: Live, b: Live, views: Mapping[str, ResultFunction], begun: float) -> Live | None:
+def second_side(state: State, a: Live, b: Live, views: Mapping[str, ViewFunction], begun: float) -> Live | None:
     """Return B's answer with the view of the stage, where that stands beside A's; None where A stands alone."""
     stage = state.display.stage
     if state.compare.shown != "both" or stage not in PANELS or not PANELS[stage].has_two_sides:

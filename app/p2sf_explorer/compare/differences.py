@@ -1,5 +1,6 @@
 """A − B of what the panels show beside PSF, pupil and coefficients, or why there is none. No Qt in here."""
 
+from collections.abc import Callable
 from dataclasses import fields, replace
 from typing import Any
 
@@ -8,8 +9,7 @@ import numpy as np
 from p2sf.messages import Message, Number
 from p2sf.raytrace.field_curves import Foci, Heights
 from p2sf.raytrace.zernike_fit import ZernikeFit
-from p2sf_explorer.compute.live import Refused
-from p2sf_explorer.compute.measured import MeasureRequest
+from p2sf_explorer.compute.live import View
 from p2sf_explorer.compute.views.chromatic import Chromatic
 from p2sf_explorer.compute.views.field import FieldView, exaggeration, grid
 from p2sf_explorer.compute.views.first_order import NONE, Row
@@ -20,19 +20,38 @@ from p2sf_explorer.state.panels import PANELS, difference_of
 from p2sf_explorer.state.scales import with_sign
 
 
-def curves(a: Any, b: Any) -> Any:
+def curves(a: View[Any], b: View[Any]) -> View[Any] | Message:
     """Return A − B of two views' curves at A's positions, their first entry; beyond B's last there is nothing.
 
     A message where the curves of one of them are still to be computed.
     """
-    if isinstance(a, MeasureRequest) or isinstance(b, MeasureRequest):
+    mine, other = a.found, b.found
+    if mine is None or other is None:
         return Message("This is A: the curves of A or of B take longer than a frame.")
-    places, *names = (field.name for field in fields(a))
-    at, known = getattr(a, places), getattr(b, places)
-    same = [n for n in names if np.shape(getattr(a, n)) == at.shape and np.shape(getattr(b, n)) == known.shape]
-    return replace(a, **{n: getattr(a, n) - np.interp(at, known, getattr(b, n), 0.0, 0.0) for n in same})
+    places, *names = (field.name for field in fields(mine))
+    at, known = getattr(mine, places), getattr(other, places)
+    same = [n for n in names if np.shape(getattr(mine, n)) == at.shape and np.shape(getattr(other, n)) == known.shape]
+    less = replace(mine, **{n: getattr(mine, n) - np.interp(at, known, getattr(other, n), 0.0, 0.0) for n in same})
+    return View(less, less if a.question else None)
 
 
+def strips(a: View[None], b: View[None]) -> View[None]:
+    """Return A's strip, B's at the same shifts and in the same window to be taken from it."""
+    strip: Strip = a.question
+    return View(None, replace(strip, less=replace(b.question, shifts_um=strip.shifts_um, window=strip.window)))
+
+
+def of_found(less: Callable[[Any, Any], Any]) -> Callable[[View[Any], View[Any]], View[Any] | Message]:
+    """Return what subtracts two views of which all is found within a frame."""
+
+    def subtracted(a: View[Any], b: View[Any]) -> View[Any] | Message:
+        made = less(a.found, b.found)
+        return made if isinstance(made, Message) else View(made)
+
+    return subtracted
+
+
+@of_found
 def surfaces(a: PerSurface, b: PerSurface) -> PerSurface | Message:
     """Return what A's surfaces add to each coefficient more than B's, waves; a message if their numbers differ."""
     counts = {name: len(view.waves["w40"]) for name, view in (("a", a), ("b", b))}
@@ -41,6 +60,7 @@ def surfaces(a: PerSurface, b: PerSurface) -> PerSurface | Message:
     return PerSurface({name: waves - b.waves[name] for name, waves in a.waves.items()}, a.stop_surface, a.colours_nm)
 
 
+@of_found
 def terms(a: ZernikeView, b: ZernikeView) -> ZernikeView:
     """Return A − B of the Zernike coefficients and of their shares; RMS and residual likewise."""
 
@@ -51,6 +71,7 @@ def terms(a: ZernikeView, b: ZernikeView) -> ZernikeView:
     return replace(a, fits={order: less(fit, b.fits[order]) for order, fit in a.fits.items()})
 
 
+@of_found
 def field(a: FieldView, b: FieldView) -> FieldView:
     """Return A − B of foci, mm, and of distortion at A's fields, which the grid then shows; nothing beyond B's last."""
 
@@ -65,19 +86,14 @@ def field(a: FieldView, b: FieldView) -> FieldView:
     return FieldView(a.field_deg, real, third, heights, a.straight, grid(unit, times * distortion), times)
 
 
+@of_found
 def colours(a: Chromatic, b: Chromatic) -> Chromatic:
     """Return A − B of the focal shift, µm, at A's wavelengths; nothing where B has none."""
     known = [np.interp(a.wavelength_nm, b.wavelength_nm, zone, np.nan, np.nan) for zone in b.shift_um]
     return replace(a, shift_um=a.shift_um - np.array(known))
 
 
-def strips(a: Strip | Message, b: Strip | Message) -> Strip | Message:
-    """Return A's strip, B's at the same shifts and in the same window to be taken from it; a message where one has."""
-    if isinstance(a, Message):
-        return a
-    return b if isinstance(b, Message) else replace(a, less=replace(b, shifts_um=a.shifts_um, window=a.window))
-
-
+@of_found
 def tables(a: tuple[tuple[Row, ...], ...], b: tuple[tuple[Row, ...], ...]) -> tuple[tuple[Row, ...], ...]:
     """Return columns of (name, A − B, definition)."""
     return tuple(
@@ -104,12 +120,12 @@ def _less(mine: object, other: object) -> object:
     return Number(with_sign(first - second, places))
 
 
-def subtract(key: str, a: object, b: object) -> tuple[object, Message | None]:
+def subtract(key: str, a: View[Any], b: View[Any]) -> tuple[View[Any], Message | None]:
     """Return what a panel shows for A − B of two views, and a message where that is A alone."""
     minus = difference_of(PANELS[key])
-    if minus is None or isinstance(minus, Message) or isinstance(a, Refused):
+    if minus is None or isinstance(minus, Message) or a.why:
         return a, minus if isinstance(minus, Message) else None
-    if isinstance(b, Refused):
-        return a, Message("This is A; B has none: {why}", why=b.message)
+    if b.why:
+        return a, Message("This is A; B has none: {why}", why=b.why)
     difference = minus(a, b)
     return (a, difference) if isinstance(difference, Message) else (difference, None)

@@ -10,7 +10,7 @@ from p2sf.figures.enlarge import LARGEST, enlarge
 from p2sf.psf.methods import PsfRequest, psf_of
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import AIRY_RADIUS
-from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.state.scales import nice
 
 STEP = 64  # between the numbers of samples that a panel may ask for, so that resizing it asks rarely
@@ -37,7 +37,7 @@ class ShownArea:
     pixel_um: float
 
 
-def source(live: Live) -> SettledSum | None:
+def source(live: Live) -> View[SettledSum | None]:
     """Return what the picture on screen is a sum of; None for ray density, what moves, and what stands in.
 
     Raises SamplingError where the method that a person chose has no picture here.
@@ -45,8 +45,8 @@ def source(live: Live) -> SettledSum | None:
     if live.refused:
         raise SamplingError("{why}", why=live.refused)
     if live.request is None or live.quality != "settled":
-        return None
-    return SettledSum(live.request, live.finest)
+        return View(None)
+    return View(SettledSum(live.request, live.finest))
 
 
 def finer(found: SettledSum, view: ShownArea, airy_um: float) -> PsfRequest | None:

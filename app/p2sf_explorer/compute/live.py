@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from time import perf_counter
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
@@ -44,8 +44,8 @@ class Live:
     why: Message
     method: str
     milliseconds: Mapping[str, float]
-    views: Mapping[str, Any] = field(default_factory=dict)
-    before: Mapping[str, Any] = field(default_factory=dict)
+    views: Mapping[str, "View[Any]"] = field(default_factory=dict)
+    before: Mapping[str, "View[Any]"] = field(default_factory=dict)
     side: str = ""
     sides: tuple[State, ...] = ()
     pending: Request | None = None
@@ -56,25 +56,35 @@ class Live:
     difference: Any = None
 
 
-@dataclass(frozen=True)
-class Refused:
-    """What stands in ``Live.views`` for a view that has nothing to show, with the ``message`` that says why."""
-
-    message: Message
+Found = TypeVar("Found")
 
 
-ResultFunction = Callable[["Live"], object]
+@dataclass(frozen=True, eq=False)
+class View(Generic[Found]):
+    """What one panel shows of an answer: what is ``found`` within the frame, and what is left to be asked.
+
+    ``question``: what a worker is to answer, None where nothing is missing, or where it need not be asked again; it is
+    asked at once, or where ``held`` when the slider rests for a moment. ``why``: why there is nothing to show.
+    """
+
+    found: Found
+    question: Any = None
+    held: bool = False
+    why: Message | None = None
+
+
+ViewFunction = Callable[["Live"], View[Any]]
 """A function from the answer so far to what one panel shows, without Qt."""
 
 
 def live(
     state: State,
     quality: str = "settled",
-    views: Mapping[str, ResultFunction] | None = None,
+    views: Mapping[str, ViewFunction] | None = None,
     kept_method: str = "",
     least: Least = ALONE,
     cache: SumCache | None = None,
-    before: Mapping[str, Any] | None = None,
+    before: Mapping[str, "View[Any]"] | None = None,
 ) -> Live:
     """Return the answer for a state; P2SFError where there is none. ``views`` are computed after the rest.
 
@@ -113,19 +123,19 @@ def live(
     return with_views(answer, views or {}, begun)
 
 
-def with_views(answer: Live, views: Mapping[str, ResultFunction], begun: float) -> Live:
+def with_views(answer: Live, views: Mapping[str, ViewFunction], begun: float) -> Live:
     """Return the answer with the open panels' views and the total time."""
     results = {name: try_view(view, answer) for name, view in views.items()}
     total = 1e3 * (perf_counter() - begun)
     return replace(answer, views=results, milliseconds={**answer.milliseconds, "all": total})
 
 
-def try_view(view: ResultFunction, answer: Live) -> object:
-    """Return what one panel shows, or Refused: the other panels have their pictures all the same."""
+def try_view(view: ViewFunction, answer: Live) -> View[Any]:
+    """Return what one panel shows, or why it shows nothing: the other panels have their pictures all the same."""
     try:
         return view(answer)
     except P2SFError as error:
-        return Refused(error.message)
+        return View(None, why=error.message)
 
 
 def shows_density(picture: Rendered, quality: str) -> bool:

@@ -135,7 +135,7 @@ def database_error(rule: str) -> Measure:
     def error(state: State) -> float:
         from p2sf_explorer.compute.views.database import answer, question
 
-        return answer(question(_live(state))).largest[rule]["w22"]
+        return answer(question(_live(state)).question).largest[rule]["w22"]
 
     return error
 
@@ -163,7 +163,7 @@ def sharpening_db(state: State) -> float:
 def _coarse(state: State) -> "ImageResult":
     from p2sf_explorer.compute.views.image import coarse, question
 
-    return coarse(question(_live(change(state, method="seidel"))))
+    return coarse(question(_live(change(state, method="seidel"))).question)
 
 
 def _spread(axis: str) -> Measure:

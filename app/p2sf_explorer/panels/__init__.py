@@ -1,7 +1,7 @@
 """The panels: one file each and one entry each in `p2sf_explorer.state.panels`, imported when first opened.
 
 A panel is a `Panel`: it paints an answer and computes nothing. What it shows beyond the answer, its view, is a function
-``view(live)`` without Qt in `p2sf_explorer.compute.views`, whose result arrives as ``live.views[key]``.
+``view(live)`` without Qt in `p2sf_explorer.compute.views`, whose `View` arrives as ``live.views[key]``.
 """
 
 from typing import Protocol, runtime_checkable

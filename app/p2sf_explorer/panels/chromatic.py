@@ -35,7 +35,7 @@ class ChromaticPanel:
 
     def show(self, live: Live) -> None:
         """Paint the curves."""
-        view: Chromatic = live.views["chromatic"]
+        view: Chromatic = live.views["chromatic"].found
         for curve, shift in zip(self.curves.values(), view.shift_um, strict=True):
             curve.set_data(view.wavelength_nm, shift)
         ends = view.wavelength_nm[[0, -1]]

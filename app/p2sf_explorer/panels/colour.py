@@ -7,7 +7,6 @@ from PySide6.QtCore import QRectF
 from PySide6.QtGui import QColor, QPainter
 
 from p2sf.conventions import NM_PER_UM
-from p2sf.messages import Message
 from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.reading import Reading, Samples, value_of
 from p2sf_explorer.charts.theme import Tokens
@@ -112,12 +111,8 @@ class ColourPanel:
         turn = np.linspace(0, 2 * np.pi, 73)
         self.airy.set_data(live.airy_radius_um * np.cos(turn), live.airy_radius_um * np.sin(turn))
         changed, self._scale = scale != self._scale, scale
-        asked: ColourQuestion | Message = live.views["colour"]
-        if isinstance(asked, Message):
-            self.late.refuse(asked)
-            return
         self._airy_um = live.airy_radius_um
-        self.late.ask(asked)
+        self.late.follow(live.views["colour"])
         if changed:
             self.late.again()
 

@@ -62,7 +62,7 @@ class DepthOfFieldPanel:
 
     def show(self, live: Live) -> None:
         """Paint the curves and what is sharp."""
-        view: DepthOfField = live.views["depth_of_field"]
+        view: DepthOfField = live.views["depth_of_field"].found
         self.blur.show_value(view.tolerated_um)
         edges = float(view.near[0]), float(view.near[-1])
         for curve, blur in zip(self.curves.values(), (view.paraxial, view.real), strict=True):

@@ -23,7 +23,7 @@ class FanPanel(CurvesPanel):
 
     def show(self, live: Live) -> None:
         """Paint the fan; lost and clipped rays leave gaps."""
-        fan: Fan = live.views[self._key]
+        fan: Fan = live.views[self._key].found
         lines = (np.asarray(fan.sagittal), np.asarray(fan.tangential))
         self.chart.name_axes(PLACES[live.setup.lens.aim], self._unit)
         self.show_curves(fan.pupil, dict(zip(LOOKS, lines, strict=True)))

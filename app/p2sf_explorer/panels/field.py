@@ -57,7 +57,7 @@ class FieldPanel:
 
     def show(self, live: Live) -> None:
         """Paint curves and grid."""
-        view: FieldView = live.views["field"]
+        view: FieldView = live.views["field"].found
         at, top = view.field_deg, float(view.field_deg[-1])
         self._show_focus(view, at, top)
         self._show_distortion(view, at, top)

@@ -175,7 +175,7 @@ class FieldMapPanel:
 
     def show(self, live: Live) -> None:
         """Mark the present field, and ask for the map when more than the field has changed."""
-        self._wanted = live.views["field_map"]
+        self._wanted = live.views["field_map"].question
         self.chart.show_place(place_of(live.state, self._wanted.corner_slope))
         changed, self._scale = live.state.display.psf_scale != self._scale, live.state.display.psf_scale
         self._ask()

@@ -31,7 +31,7 @@ class FirstOrderPanel:
 
     def show(self, live: Live) -> None:
         """Show the figures."""
-        columns: tuple[tuple[Row, ...], ...] = live.views["first_order"]
+        columns: tuple[tuple[Row, ...], ...] = live.views["first_order"].found
         for table, rows in zip(self.tables, columns, strict=True):
             table.show_rows(rows)
         self.columns.fit()

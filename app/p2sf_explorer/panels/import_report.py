@@ -42,7 +42,7 @@ class ImportReportPanel:
         if self._refusal and self._refused_beside != (live.state.optics.lens, live.state.optics.lens_text):
             self._refusal = None
         if not self._refusal:
-            self._write(live.views["import"])
+            self._write(live.views["import"].found)
         self.accept.setVisible(bool(self._refusal and self._refusal.substituted))
 
     def show_refusal(self, refusal: Refusal) -> None:

@@ -155,7 +155,7 @@ class MeasuredPanel:
 
     def show(self, live: Live) -> None:
         """Follow the state; a picture is measured again where anything has changed and nothing is dragged."""
-        self._asked = asked = live.views["measured"]
+        self._asked = asked = live.views["measured"].question
         for control, follow in ((self.pixel, self.pixel.setValue), (self.beside, self.beside.setChecked)):
             control.blockSignals(True)
             follow(asked.pixel_um if control is self.pixel else asked.beside)

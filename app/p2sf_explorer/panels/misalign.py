@@ -202,7 +202,7 @@ class MisalignPanel:
 
     def show(self, live: Live) -> None:
         """Follow the lens and its errors."""
-        self._show(live.views["misalign"])
+        self._show(live.views["misalign"].found)
 
     def follow(self, state: State) -> None:
         """Follow a state that has no picture, so that what is wrong can be set right."""

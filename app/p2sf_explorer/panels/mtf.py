@@ -5,7 +5,7 @@ from math import inf
 from p2sf.conventions import UM_PER_MM
 from p2sf.messages import Message
 from p2sf_explorer.charts.theme import Tokens
-from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.measured import MeasureRequest
 from p2sf_explorer.compute.views.mtf import Contrast, answer
 from p2sf_explorer.i18n.messages import said
@@ -48,12 +48,10 @@ class MtfPanel(CurvesPanel):
         self._live = live
         self._masked = not live.setup.lens.mask.clear
         self.curves["perfect lens"].name = tr(SAME_PUPIL if self._masked else "perfect lens")
-        view: Contrast | MeasureRequest = live.views["mtf"]
-        if isinstance(view, MeasureRequest):
-            self.late.ask(view)
-            return
-        self.late.forget()
-        self._say(said(self._paint(None, view)))
+        view: View[Contrast | None] = live.views["mtf"]
+        self.late.follow(view)
+        if view.found:
+            self._say(said(self._paint(None, view.found)))
 
     def _say(self, text: str) -> None:
         marks = self.legend(self._theme) if self._theme else ""

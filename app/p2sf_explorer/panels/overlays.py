@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QLabel
 
 from p2sf.conventions import UM_PER_MM
 from p2sf_explorer.charts.theme import LIGHT, Tokens
-from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.matrix.overlays import (
     PLAIN,
     USUAL_PER_MM,
@@ -85,18 +85,16 @@ class OverlaysPanel:
     def show(self, live: Live) -> None:
         """Paint curves that fit a frame, or have them made in the background."""
         self._live = live
-        view: CurveOverlay | OverlayRequest = live.views["curves"]
+        view: View[CurveOverlay | None] = live.views["curves"]
         self.frequencies.setVisible(live.state.curves.of in ("field", "focus"))
         self.frequencies.show_frequencies(live.state.curves.frequencies_per_mm or USUAL_PER_MM)
         self.fields.setVisible(live.state.curves.of in ("fields", "transmission_of_colours"))
         self.fields.show_fields(compared_fields(live.state))
-        if isinstance(view, CurveOverlay):
-            self.late.forget()
-            self._paint(None, view)
+        self.late.follow(view)
+        if view.found:
+            self._paint(None, view.found)
             self._say("")
-            return
-        (self.late.ask if live.quality == "settled" else self.late.ask_when_held)(view)
-        if self.found and isinstance(self.found[0], OverlayRequest) and self.found[0].of == view.of:
+        elif self.found and self.found[0] and self.found[0].of == live.state.curves.of:
             self._mark()
 
     def _take(self, request: OverlayRequest, found: CurveOverlay) -> str:

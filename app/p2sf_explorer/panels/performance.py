@@ -78,7 +78,7 @@ class PerformancePanel:
     def show(self, live: Live) -> None:
         """Show the table of the present setup, or have it computed in the background."""
         self._live = live
-        request: PerformanceRequest = live.views["performance"]
+        request: PerformanceRequest = live.views["performance"].question
         self.fields.show_fields(request.fields_deg)
         self.frequencies.show_frequencies(request.frequency_per_mm)
         if live.quality == "settled":

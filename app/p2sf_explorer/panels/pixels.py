@@ -39,7 +39,7 @@ class BesidePanel:
 
     def show(self, live: Live) -> None:
         """Paint the three maps."""
-        view: SampledLight = live.views["beside"]
+        view: SampledLight = live.views["beside"].found
         self.pixel.show_value(view.pixel_um)
         frame = frame_of(light_circle(view.real, view.sample_um, live.airy_radius_um))
         shown = ((view.real, view.sample_um), (view.perfect, view.sample_um), (view.pixels, view.pixel_um))

@@ -5,7 +5,7 @@ import numpy as np
 from p2sf.messages import Message
 from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.theme import Tokens
-from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.views.profiles import ProfileCurves, answer
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr
@@ -41,18 +41,17 @@ class ProfilesPanel(CurvesPanel):
     def show(self, live: Live) -> None:
         """Paint the sections and the energy, which a worker computes where it is too slow for a frame."""
         self._live = live
-        view: ProfileCurves = live.views["profiles"]
-        self._show_sections(live, view)
+        view: View[ProfileCurves] = live.views["profiles"]
+        self._show_sections(live, view.found)
         self.within.set_data((), ())
         self.energy.update()
-        if view.pending and not live.pending:
-            self.late.ask(view)
-            return
-        self.late.forget()
-        if view.pending:  # behind the picture, which is told of first: each of the two takes half a gigabyte
+        if view.question and live.pending:  # behind the picture, which comes first: each takes half a gigabyte
+            self.late.forget()
             self._say(tr("working"))
             return
-        self._say(said(self._paint(view, view)))
+        self.late.follow(view)
+        if view.question is None:
+            self._say(said(self._paint(view.found, view.found)))
 
     def _say(self, text: str) -> None:
         whose = "A: " if self._live and self._live.difference else ""

@@ -99,8 +99,8 @@ class PsfPanel:
 
     def _finer_request(self, live: Live) -> PsfRequest | None:
         """Return the sum with a sample for each pixel of the panel; None where the picture is as fine as that."""
-        found = None if live.difference else live.views.get("psf")
-        return finer(found, self._view, live.airy_radius_um) if isinstance(found, SettledSum) else None
+        found: SettledSum | None = None if live.difference or "psf" not in live.views else live.views["psf"].found
+        return finer(found, self._view, live.airy_radius_um) if found else None
 
     def _take(self, request: PsfRequest, psf: Psf) -> str:
         """Show a finer picture if it is that of the present answer."""

@@ -73,7 +73,7 @@ class SeidelPanel:
 
     def show(self, live: Live) -> None:
         """Paint the bars of the chosen sum."""
-        view: PerSurface = live.views["seidel"]
+        view: PerSurface = live.views["seidel"].found
         chosen = live.state.choices.seidel_sum
         bars = bars_of(view, TERMS if chosen == ALL else (chosen,))
         self.chart.show_bars(bars, view, chosen == ALL)

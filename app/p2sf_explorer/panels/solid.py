@@ -61,7 +61,7 @@ class SolidPanel:
     def show(self, live: Live) -> None:
         """Show an answer, as soon as there is a renderer."""
         self.view.show_live(live)
-        view: Scene3D = live.views["solid"]
+        view: Scene3D = live.views["solid"].found
         factors = tr(
             FACTORS,
             front=f"{view.front.factor:g}",

@@ -77,7 +77,7 @@ class SpotPanel:
 
     def show(self, live: Live) -> None:
         """Paint the points."""
-        spot: Spot = live.views["spot"]
+        spot: Spot = live.views["spot"].found
         points = landing_points(spot)
         self.chart.show_points(points)
         turn = np.linspace(0, 2 * np.pi, 73)

@@ -7,12 +7,10 @@ import numpy as np
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPen, QResizeEvent
 
-from p2sf.messages import Message
 from p2sf_explorer.charts.plots import BRIGHTNESS
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.framing import crop
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.compute.setup import ranges
 from p2sf_explorer.compute.views.through_focus import Focused, Strip, answer
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.scales import with_sign
@@ -136,20 +134,12 @@ class ThroughFocusPanel:
 
     def show(self, live: Live) -> None:
         """Show the sensor, and ask for the strip when more than the sensor has changed."""
-        asked: Strip | Message = live.views["through_focus"]
         scale = live.state.display.psf_scale
         if scale != self._scale:
             self._scale = scale
             self.late.again()
         self.chart.show_sensor(live.state.optics.sensor_shift_um)
-        if isinstance(asked, Message):
-            half = ranges(live.setup.prescription).shift_um
-            self.chart.set_range((-half, half), (0.0, 1.0))
-            self.chart.show_tiles((), 1.0)
-            self.chart.show_notes([])
-            self.late.refuse(asked)
-            return
-        self.late.ask(asked)
+        self.late.follow(live.views["through_focus"])
 
     def _paint(self, asked: Strip, found: Focused) -> str:
         self.found = asked, found

@@ -69,7 +69,7 @@ class YBarPanel:
 
     def show(self, live: Live) -> None:
         """Paint the diagram of the present source."""
-        view: YBar = live.views["ybar"]
+        view: YBar = live.views["ybar"].found
         self.path.set_data(view.chief_y, view.y)
         self.chart.names = tuple(f"▪{tr(name)}" if k == view.stop else tr(name) for k, name in enumerate(view.names))
         near = slice(int(view.names[0] == "object" and far_off(view)), None)

@@ -44,7 +44,7 @@ class ZernikePanel:
 
     def show(self, live: Live) -> None:
         """Paint the terms in the chosen order."""
-        view: ZernikeView = live.views["zernike"]
+        view: ZernikeView = live.views["zernike"].found
         fit = view.fits[live.state.choices.zernike_order]
         self.chart.show_fit(fit)
         self.table.show_rows(rows(fit))

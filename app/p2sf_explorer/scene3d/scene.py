@@ -10,7 +10,7 @@ from p2sf.raytrace.pencil import pencil, tangent_axes
 from p2sf_explorer.compute.brightness import stretch
 from p2sf_explorer.compute.glass_outlines import last_end, still
 from p2sf_explorer.compute.layout import shown_lens
-from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.quantities import visible_colour
 from p2sf_explorer.scene3d.meshes import Element, Mesh, elements, filling, masked_stop, place_mesh, plate
 from p2sf_explorer.scene3d.ray_bundle import Front, PsfSurface, front, psf_surface, ray_bundle
@@ -31,7 +31,7 @@ class Scene3D:
     psf_surface: PsfSurface
 
 
-def scene(live: Live) -> Scene3D:
+def scene(live: Live) -> View[Scene3D]:
     """Return the scene of an answer. Raises GeometryError where the chief ray does not reach the sensor.
 
     Wavefront and PSF are made in the axes of the plane that touches the sensor at the chief ray's point, turned with
@@ -49,14 +49,16 @@ def scene(live: Live) -> Scene3D:
     wave = front(setup, flat, last_end(lens) - lens.sensor_mm)
     psf = psf_surface(live.psf, brightness(live), flat, half, lens.directions[-1])
     stop = masked_stop(lens.mask, rim, rim + 0.18 * drawn.half_height + 0.25 * rim, 0.0, thick)
-    return Scene3D(
-        glass=elements(still(shown)) + filling(shown),
-        stop=place_mesh(stop, shown.frames[int(setup.stop.surface) - 1]),
-        sensor=place_mesh(plate(half, thick, shown.sensor_surface), shown.frames[-1]),
-        rays=ray_bundle(setup, drawn, live.state.optics.clip),
-        colour=visible_colour(live.state.optics.wavelength_nm),
-        front=replace(wave, mesh=place_mesh(wave.mesh, stands)),
-        psf_surface=replace(psf, mesh=place_mesh(psf.mesh, stands)),
+    return View(
+        Scene3D(
+            glass=elements(still(shown)) + filling(shown),
+            stop=place_mesh(stop, shown.frames[int(setup.stop.surface) - 1]),
+            sensor=place_mesh(plate(half, thick, shown.sensor_surface), shown.frames[-1]),
+            rays=ray_bundle(setup, drawn, live.state.optics.clip),
+            colour=visible_colour(live.state.optics.wavelength_nm),
+            front=replace(wave, mesh=place_mesh(wave.mesh, stands)),
+            psf_surface=replace(psf, mesh=place_mesh(psf.mesh, stands)),
+        )
     )
 
 

@@ -104,7 +104,7 @@ class SceneView(QWidget):
 
     def _render(self, renderer: "Renderer", live: Live) -> QImage:
         renderer.resize(self.pixels(), smooth=not self._moving())
-        renderer.follow(live.views["solid"], self._theme, (WAVES_MAP, self._theme.brightness))
+        renderer.follow(live.views["solid"].found, self._theme, (WAVES_MAP, self._theme.brightness))
         renderer.look(self._camera)
         picture = renderer.picture()
         rows, columns, _ = picture.shape

@@ -345,7 +345,7 @@ def resolve(path: str) -> Any:
     return getattr(import_module(f"p2sf_explorer.{module}"), name)
 
 
-def view_of(entry: PanelEntry) -> Callable[[Any], object] | None:
+def view_of(entry: PanelEntry) -> Callable[[Any], Any] | None:
     """Return the view function of an entry, None where it has none."""
     return resolve(entry.view) if entry.view else None
 

@@ -9,6 +9,7 @@ from PySide6.QtCore import QObject, QThread, QTimer, Signal, Slot
 
 from p2sf.errors import Cancelled, P2SFError
 from p2sf.messages import Message
+from p2sf_explorer.compute.live import View
 from p2sf_explorer.i18n.messages import WINDOW, said
 from p2sf_explorer.i18n.tr import tr
 
@@ -112,6 +113,13 @@ class LateAnswers(QObject):
         self.forget()
         self._later = question
         self._held.start()
+
+    def follow(self, view: View[Any]) -> None:
+        """Ask what a view leaves to be asked, at once or once it is held; where nothing is left, want nothing more."""
+        if view.question is None:
+            self.forget()
+        else:
+            (self.ask_when_held if view.held else self.ask)(view.question)
 
     def submit(self, question: object, job: Job) -> None:
         """Run a job for a question now if nothing runs, else next, whatever was asked last; after the end drop it."""

@@ -27,7 +27,7 @@ from p2sf_explorer.compare.comparison import Answers, answers
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.caption import caption
 from p2sf_explorer.compute.deferred_sums import Found, Request, SumCache, answer_to
-from p2sf_explorer.compute.live import Live, Refused
+from p2sf_explorer.compute.live import Live
 from p2sf_explorer.course.course import Course
 from p2sf_explorer.files.file_watcher import FileWatcher
 from p2sf_explorer.i18n.messages import said
@@ -430,7 +430,7 @@ class MainWindow(QMainWindow):
         """Return the panels on show."""
         return tuple(key for key in on_show(self.display) if key in self.panels)
 
-    def _wanted_views(self) -> dict[str, compute.ResultFunction]:
+    def _wanted_views(self) -> dict[str, compute.ViewFunction]:
         views = {key: view_of(PANELS[key]) for key in self._visible()}
         return {key: view for key, view in views.items() if view}
 
@@ -616,11 +616,10 @@ def _lectures(language: str) -> "tuple[dict[str, Lesson], tuple[P2SFError, ...]]
 
 def paint(panel: Panel, key: str, live: Live) -> None:
     """Have a panel show an answer and the side of a comparison that it is of, or say why it has nothing to show."""
-    found = live.views.get(key)
-    if isinstance(found, Refused):
-        panel.widget.show_overlay(said(found.message))
-        return
     panel.widget.show_state(live.state)
+    if (view := live.views.get(key)) and view.why:
+        panel.widget.show_overlay(said(view.why))
+        return
     panel.show(live)
     panel.widget.show_overlay("")
     why = live.difference.why.get(key) if live.difference else None

@@ -71,13 +71,13 @@ def test_what_is_on_screen_is_a_or_b_or_their_difference():
         assert d.difference.coefficients[name] == approx(six[0] - six[1], abs=1e-12)
     assert np.allclose(d.difference.pupil.waves, a.pupil.waves - b.pupil.waves, equal_nan=True)
     for name in ("along_x", "along_y"):
-        parts = [getattr(side.views["profiles"], name) for side in (a, b, d)]
+        parts = [getattr(side.views["profiles"].found, name) for side in (a, b, d)]
         assert np.allclose(parts[0] - parts[1], parts[2], atol=1e-12)
 
 
 def test_stopped_down_the_difference_of_contrast_ends_where_the_wider_one_does():
     sides = (change(PAIR, shown=side) for side in ("a", "b", "difference"))
-    a, b, d = (answers(state, "settled", VIEWS).seen.views["mtf"] for state in sides)
+    a, b, d = (answers(state, "settled", VIEWS).seen.views["mtf"].found for state in sides)
     assert b.frequency_per_mm[-1] < a.frequency_per_mm[-1]  # the cut-off 2NA/λ halves from f/4 to f/8
     beyond = a.frequency_per_mm > b.frequency_per_mm[-1]
     assert np.array_equal(d.tangential[beyond], a.tangential[beyond])

@@ -12,6 +12,7 @@ from p2sf.paraxial.pupils import Stop
 from p2sf_explorer.compare.comparison import answers
 from p2sf_explorer.compare.differences import minus, subtract
 from p2sf_explorer.compute import live as compute
+from p2sf_explorer.compute.live import View
 from p2sf_explorer.compute.views.first_order import aperture, distance, length, pupil, stop
 from p2sf_explorer.compute.views.through_focus import answer
 from p2sf_explorer.i18n import language as languages
@@ -65,11 +66,12 @@ def test_fans_and_sums_per_surface_are_taken_from_each_other(views):
     a, b, d = views
     for fan in ("ray_fan", "opd_fan"):
         for line in ("sagittal", "tangential"):
-            assert np.allclose(*(getattr(a[fan], line) - getattr(b[fan], line), getattr(d[fan], line)), equal_nan=True)
-    for term, waves in d["seidel"].waves.items():
-        assert waves == approx(a["seidel"].waves[term] - b["seidel"].waves[term])
+            mine, other, less = (getattr(side[fan].found, line) for side in views)
+            assert np.allclose(mine - other, less, equal_nan=True)
+    for term, waves in d["seidel"].found.waves.items():
+        assert waves == approx(a["seidel"].found.waves[term] - b["seidel"].found.waves[term])
     # third order: W40 goes as the fourth power of the aperture, so that f/4 less f/8 is 15/16 of f/4
-    assert d["seidel"].waves["w40"].sum() == approx(15 / 16 * a["seidel"].waves["w40"].sum(), rel=1e-6)
+    assert d["seidel"].found.waves["w40"].sum() == approx(15 / 16 * a["seidel"].found.waves["w40"].sum(), rel=1e-6)
 
 
 def test_a_difference_has_the_sign_of_the_side_that_has_more():
@@ -81,11 +83,11 @@ def test_a_difference_has_the_sign_of_the_side_that_has_more():
     assert seen.difference.coefficients["w40"] == approx(15 / 16 * float(own.setup.coefficients.w40), rel=1e-6)
     middle = len(seen.difference.psf) // 2
     assert seen.difference.psf[middle, middle] > 0
-    profiles = seen.views["profiles"]
+    profiles = seen.views["profiles"].found
     assert profiles.along_x[int(np.abs(profiles.position_um).argmin())] > 0
-    for order, fit in own.views["zernike"].fits.items():
+    for order, fit in own.views["zernike"].found.fits.items():
         place = next(k for k, term in enumerate(fit.terms) if (term.n, term.m) == (4, 0))
-        assert seen.views["zernike"].fits[order].waves[place] / fit.waves[place] == approx(15 / 16, abs=0.03)
+        assert seen.views["zernike"].found.fits[order].waves[place] / fit.waves[place] == approx(15 / 16, abs=0.03)
     at = middle_row(seen.difference.pupil.waves)
     assert seen.difference.pupil.waves[at] / own.pupil.waves[at] > 0
 
@@ -105,7 +107,7 @@ def test_a_lens_with_other_surfaces_has_no_sums_to_take_away(views):
 
 
 def test_field_curves_differ_by_focus_and_by_share_of_height(views):
-    a, b, d = (side["field"] for side in views)
+    a, b, d = (side["field"].found for side in views)
     # both have the axis and, by the same lens file, the same fields; the stop moves the real foci alone
     assert d.real.tangential == approx(a.real.tangential - b.real.tangential, nan_ok=True)
     assert d.third.sagittal == approx(a.third.sagittal - b.third.sagittal)
@@ -113,21 +115,22 @@ def test_field_curves_differ_by_focus_and_by_share_of_height(views):
 
 
 def test_a_colour_b_cannot_show_has_no_difference(views):
-    a, b, d = (side["chromatic"] for side in views)
+    a, b, d = (side["chromatic"].found for side in views)
     assert d.shift_um == approx(a.shift_um - b.shift_um)
     assert d.shift_um[0] == approx(0, abs=1e-9)  # paraxial rays do not know the stop
     short = replace(b, wavelength_nm=b.wavelength_nm[5:], shift_um=b.shift_um[:, 5:])
-    assert np.isnan(subtract("chromatic", a, short)[0].shift_um[:, :5]).all()
+    assert np.isnan(subtract("chromatic", View(a), View(short))[0].found.shift_um[:, :5]).all()
 
 
 def test_the_strip_is_light_less_light_at_the_same_places(views):
-    a, _, d = (side["through_focus"] for side in views)
+    a, _, d = (side["through_focus"].question for side in views)
     assert d.less.shifts_um == a.shifts_um and d.less.window == a.window
     few = replace(a, shifts_um=a.shifts_um[:1])
     found = answer(replace(few, less=replace(d.less, shifts_um=few.shifts_um)), lambda: False, lambda *_: None)
     parts = [answer(part, lambda: False, lambda *_: None) for part in (few, replace(d.less, shifts_um=few.shifts_um))]
     assert np.allclose(found.light, parts[0].light - parts[1].light) and found.light.any()
-    assert subtract("through_focus", a, Message("no"))[1] == Message("no")
+    shown, why = subtract("through_focus", View(None, a), View(None, why=Message("no")))
+    assert shown.question == a and str(why) == "This is A; B has none: no"
 
 
 @pytest.mark.parametrize(

@@ -41,17 +41,17 @@ def test_without_clip_nothing_ends_and_a_stopped_ray_is_not_called_lost():
 @pytest.mark.parametrize("view", [ray_errors, path_errors])
 def test_fans_have_gaps_where_rays_are_stopped(view):
     answer = live(CLIPPED, "preview")
-    setup, fan = answer.setup, view(answer)
+    setup, fan = answer.setup, view(answer).found
     line, zero = np.linspace(-1, 1, FAN_RAYS), np.zeros(FAN_RAYS)
     for values, at in ((fan.tangential, (zero, line)), (fan.sagittal, (line, zero))):
         assert np.array_equal(np.isfinite(values), pencil(setup.lens, setup.source, *at, clip=True).passed)
     assert np.isnan(fan.tangential).any()
-    assert np.isfinite(view(live(change(CLIPPED, clip=False), "preview")).tangential).all()
+    assert np.isfinite(view(live(change(CLIPPED, clip=False), "preview")).found.tangential).all()
 
 
 def test_the_spot_says_that_rims_stop_rays():
     answer = live(CLIPPED, "preview")
-    found = spots(answer)
+    found = spots(answer).found
     rows = {name: (value, why) for name, value, why in figures(found, 1.0, clip=True)}
     value, why = rows["Rays within the rims"]
     assert value.values["count"] == len(landing_points(found)) < value.values["all"] == found.x_um.size

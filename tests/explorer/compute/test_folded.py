@@ -67,18 +67,21 @@ def test_a_mirror_behind_the_lens_changes_nothing_but_the_direction(name):
     assert differences(before.psf, after.psf, "psf") == []
     assert differences(before.warnings, after.warnings, "warnings") == []
     for name in SAME:
-        assert differences(before.views[name], after.views[name], name) == []
+        one, two = before.views[name], after.views[name]
+        assert differences(one.found or one.question, two.found or two.question, name) == []
     # What lies behind the focus now lies on the other side of it.
     for name, curve in (("field", "real"), ("field", "third"), ("chromatic", "shift_um")):
-        there, back = (np.asarray(getattr(each.views[name], curve)) for each in (before, after))
+        there, back = (np.asarray(getattr(each.views[name].found, curve)) for each in (before, after))
         np.testing.assert_allclose(back, -there, rtol=1e-6, atol=1e-6)
-    assert after.views["chromatic"].depth_of_focus_um == pytest.approx(before.views["chromatic"].depth_of_focus_um)
-    there, back = (np.array(each.views["through_focus"].shifts_um) for each in (before, after))
+    assert after.views["chromatic"].found.depth_of_focus_um == pytest.approx(
+        before.views["chromatic"].found.depth_of_focus_um
+    )
+    there, back = (np.array(each.views["through_focus"].question.shifts_um) for each in (before, after))
     np.testing.assert_allclose(back, -there[::-1])
     # The PSF rises from the sensor towards the light, and the wavefront stands before it.
     for each, towards in ((before, -1), (after, 1)):
         sensor = each.layout.drawing.sensor_z
-        for mesh in (each.views["solid"].psf_surface.mesh, each.views["solid"].front.mesh):
+        for mesh in (each.views["solid"].found.psf_surface.mesh, each.views["solid"].found.front.mesh):
             assert (towards * (mesh.points[:, 2] - sensor) > 0).all()
 
 

@@ -30,7 +30,7 @@ def text() -> str:
 def test_every_panel_answers(text, method):
     state = change(default_state("lens", text), field_deg=5.0, method=method)
     found = live(state, views={entry.key: view_of(entry) for entry in REGISTRY if entry.view})
-    rows = found.views["lens"].beside
+    rows = found.views["lens"].found.beside
     assert [row["aspheric"].short for row in rows].count((Message("XY polynomial"),)) == 1
     assert [row["aspheric"].short for row in rows].count((Message("Zernike standard sag"),)) == 1
     if method != "seidel":

@@ -29,7 +29,7 @@ def test_every_panel_answers(lens):
     state = change(default_state("lens", lens_to_toml(lens)), field_deg=5.0)
     found = live(state, views={entry.key: view_of(entry) for entry in REGISTRY if entry.view})
     assert float(np.asarray(found.psf.strehl)) == pytest.approx(1.0, abs=1e-6)
-    assert found.views["lens"].beside[0]["aspheric"].short == (Message("ideal lens"),)
+    assert found.views["lens"].found.beside[0]["aspheric"].short == (Message("ideal lens"),)
 
 
 def test_plain_numbers_go_where_the_arrays_go(lens):

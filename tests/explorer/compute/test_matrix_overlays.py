@@ -118,7 +118,7 @@ def test_a_pure_defocus_is_even_about_its_focus():
 def test_lateral_colour_is_that_of_one_object_point(depth_mm):
     """One point of the object, whatever the colour: its height is −slope·(distance to that colour's entrance pupil)."""
     state = change(TRIPLET, depth_mm=depth_mm, focus_mm=depth_mm, curves_of="lateral")
-    found = overlay(live(state))
+    found = overlay(live(state)).found
     setup, blue = paraxial_setup(state), 480.0
     angle = found.x[-1]
 
@@ -137,7 +137,7 @@ def test_lateral_colour_is_that_of_one_object_point(depth_mm):
 def test_distortion_is_of_the_third_order_near_the_axis():
     """Distortion of W11 grows with the square of the field; what exact rays add to it, with the fourth power."""
     state = change(TRIPLET, focus_mm=np.inf, curves_of="distortion")  # W11 is of the Gaussian image plane
-    found = overlay(live(state))
+    found = overlay(live(state)).found
     exact, third = lines(found)["550.0 nm"], lines(found)["550.0 nm third order"]
     slopes = np.tan(np.deg2rad(found.x))
     assert third[1:] / slopes[1:] ** 2 == pytest.approx(third[-1] / slopes[-1] ** 2, rel=1e-9)

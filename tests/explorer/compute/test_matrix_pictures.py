@@ -86,7 +86,7 @@ def test_rays_are_those_of_the_single_panel(what, across):
     view = {"spot": rays.spots, "ray_fan": rays.ray_errors, "opd_fan": rays.path_errors}[what]
     request = request_of(TRIPLET, matrix_what=what, matrix_across=across, depth_mm=3000.0)
     for state, tile in each(request, previews(request, "settled")):
-        alone = view(live(state))
+        alone = view(live(state)).found
         if what == "spot":
             assert tile.content.points == pytest.approx(rays.landing_points(alone), abs=1e-6)  # µm
             assert str(tile.figure) == f"RMS {float(alone.rms_um):.3g} µm" or "0" in str(tile.figure)
@@ -117,7 +117,7 @@ def test_the_pupil_has_the_rms_of_the_rays(quality):
 @pytest.mark.parametrize("obscuration", [0.0, 0.35])
 def test_contrast_is_that_of_the_library(obscuration):
     request = request_of(TRIPLET, matrix_what="mtf", matrix_rows=2, matrix_columns=2, obscuration=obscuration)
-    assert matrix(live(change(TRIPLET, matrix_what="mtf"))).tiles is None, "it takes longer than a frame"
+    assert matrix(live(change(TRIPLET, matrix_what="mtf"))).found.tiles is None, "it takes longer than a frame"
     for state, tile in each(request, worked(request)[0]):
         setup, x = paraxial_setup(state), tile.content.x
         angle = state.optics.field_deg
@@ -217,19 +217,20 @@ def moved(before: Live, f_number: float) -> Live:
 def test_of_many_pictures_the_one_in_hand_is_renewed_in_each_frame_and_the_others_in_turn():
     """A frame renews two of fifteen; after fifteen frames each has been renewed, and is what it is by itself."""
     seen = live(new_state(matrix_rows=5, method="fitted", f_number=4.0, field_deg=0.0), "preview", {"matrix": matrix})
-    row, column, _ = nearest(seen.views["matrix"].request, seen.state)
+    row, column, _ = nearest(seen.views["matrix"].found.request, seen.state)
     renewed = set()
     for number in range(15):
         later = moved(seen, 4.1 + 0.1 * number)
-        old, new = (np.array(each.views["matrix"].tiles, dtype=object) for each in (seen, later))
+        old, new = (np.array(each.views["matrix"].found.tiles, dtype=object) for each in (seen, later))
         changed = {tuple(at) for at in np.argwhere(old != new).tolist()}
         assert (row, column) in changed and len(changed) <= 2
-        assert len(later.views["matrix"].waiting) >= 13
+        assert len(later.views["matrix"].found.waiting) >= 13
         renewed |= changed
         seen = later
     assert len(renewed) == 15
     alone, here = (
-        tiles[row][column].content for tiles in (previews(seen.views["matrix"].request), seen.views["matrix"].tiles)
+        tiles[row][column].content
+        for tiles in (previews(seen.views["matrix"].found.request), seen.views["matrix"].found.tiles)
     )
     assert here.circle.radius_um == pytest.approx(alone.circle.radius_um, rel=0.03), "in a window of other samples"
 
@@ -239,8 +240,8 @@ def test_a_few_pictures_are_all_renewed_in_each_frame():
         new_state(matrix_rows=2, matrix_columns=2, method="fitted", f_number=4.0), "preview", {"matrix": matrix}
     )
     later = moved(seen, 4.5)
-    old, new = (np.array(each.views["matrix"].tiles, dtype=object) for each in (seen, later))
-    assert (old != new).all() and not later.views["matrix"].waiting
+    old, new = (np.array(each.views["matrix"].found.tiles, dtype=object) for each in (seen, later))
+    assert (old != new).all() and not later.views["matrix"].found.waiting
 
 
 @pytest.mark.parametrize(("name", "field_deg", "method"), [("cooke_triplet", 14.0, "auto"), ("tessar", 10.0, "seidel")])
@@ -255,6 +256,6 @@ def test_the_radius_of_a_state_is_that_of_profiles_and_library_and_that_of_a_win
     setup = paraxial_setup(state)
     library = p2sf.encircled_energy(setup.lens, setup.source, "seidel" if method == "seidel" else "traced").radius_80_um
     assert settled.template == "R80 {radius} µm" and float(str(settled.values["radius"])) == float(f"{library:.3g}")
-    assert profiles.views["profiles"].radii_um[1] == pytest.approx(library, rel=1e-3)
+    assert profiles.views["profiles"].found.radii_um[1] == pytest.approx(library, rel=1e-3)
     moving = previews(request)[0][0].figure
     assert "in view" in moving.template

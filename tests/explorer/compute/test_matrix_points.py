@@ -7,6 +7,7 @@ import pytest
 
 from p2sf_explorer.compare.comparison import answers
 from p2sf_explorer.compute.live import live
+from p2sf_explorer.compute.matrix.pictures import matrix
 from p2sf_explorer.compute.matrix.points import (
     LISTS,
     heading_texts,
@@ -113,8 +114,8 @@ def test_between_the_pictures_the_nearest_is_marked_as_near():
 def test_sides_are_those_that_are_compared():
     state = change(GAUSS, matrix_across="side", pinned=new_state(f_number=8.0))
     for shown in ("a", "b", "difference"):
-        seen = answers(change(state, shown=shown), "preview", {"matrix": matrix_request}).seen
-        request = seen.views["matrix"]
+        seen = answers(change(state, shown=shown), "preview", {"matrix": matrix}).seen
+        request = seen.views["matrix"].found.request
         assert request.columns == ("A", "B")
         assert [point.optics.f_number for point in request.states[0]] == [None, 8.0]
         assert [row[1].optics.field_deg for row in request.states] == list(request.rows)

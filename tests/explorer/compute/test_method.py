@@ -73,11 +73,11 @@ def test_samples_are_close_enough_to_add_up_to_the_light():
 def test_a_chosen_method_that_is_impossible_says_why_and_what_to_do(method):
     state = change(default_state("double_gauss_28"), depth_mm=10.0, method=method)
     answer = live(state, views={"psf": source}, cache=SumCache())
-    said = str(answer.views["psf"].message)
+    said = str(answer.views["psf"].why)
     assert said.startswith(method) and "pupil samples" in said and "to see waves" in said and "auto" in said
     assert not any("ray density" in str(warning) for warning in answer.warnings)
     left = live(change(state, method="auto"), views={"psf": source}, cache=SumCache())
-    assert (left.psf.method, left.views["psf"], left.refused) == ("geometric", None, None)
+    assert (left.psf.method, left.views["psf"].found, left.refused) == ("geometric", None, None)
 
 
 def test_six_coefficients_of_many_waves_are_waited_for():
@@ -99,7 +99,7 @@ def test_what_is_altered_by_hand_predicts_nothing():
 def test_finer_samples_are_those_of_the_same_picture():
     """A blur whose samples are too coarse for the eye: what is summed in their place passes through them."""
     answer = live(new_state(method="fitted", field_deg=5.0), views={"psf": source})
-    found, airy, psf = answer.views["psf"], answer.airy_radius_um, answer.psf
+    found, airy, psf = answer.views["psf"].found, answer.airy_radius_um, answer.psf
     reach = 0.4 * psf.pixel_um * len(psf.values)
     request = finer(found, ShownArea(reach, 0.2), airy)
     samples, pitch = request.window
@@ -114,7 +114,7 @@ def test_finer_samples_are_those_of_the_same_picture():
 
 def test_a_finer_picture_is_asked_for_only_where_the_eye_needs_it():
     answer = live(new_state(method="fitted", field_deg=2.0, f_number=8.0), views={"psf": source})
-    found, airy, psf = answer.views["psf"], answer.airy_radius_um, answer.psf
+    found, airy, psf = answer.views["psf"].found, answer.airy_radius_um, answer.psf
     half = psf.pixel_um * len(psf.values) / 2
     assert psf.pixel_um < CRITICAL * airy
     assert finer(found, ShownArea(0.9 * half, 0.01 * airy), airy) is None, "cosines through these samples are the light"

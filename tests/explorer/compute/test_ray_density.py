@@ -183,8 +183,8 @@ def test_what_needs_the_pupil_of_many_waves_waits_for_a_worker():
             answer = live(change(state, field_deg=field), quality, cache=SumCache())
             assert answer.psf.method == "geometric"
             before = process_time()
-            assert isinstance(contrast(answer), MeasureRequest)
-            curves = profiles(answer)
+            assert isinstance(contrast(answer).question, MeasureRequest)
+            curves = profiles(answer).found
             assert process_time() - before < 0.5
             assert curves.pending == measure_request(answer) or quality == "preview"
 
@@ -196,8 +196,8 @@ def test_sections_and_measures_of_a_picture_that_came_late_wait_too(lens, field,
     request = live(state, cache=cache).pending
     cache.keep(request, psf_of(request))
     late = live(state, cache=cache)
-    assert late.psf.method != "geometric" and isinstance(contrast(late), MeasureRequest)
-    rough = profiles(late)
+    assert late.psf.method != "geometric" and isinstance(contrast(late).question, MeasureRequest)
+    rough = profiles(late).found
     whole = finished(rough, lambda: False, lambda share, found: None)
     assert rough.rough and rough.pending and not whole.rough and whole.pending is None
     assert np.isnan(rough.energy).all() and np.isfinite(whole.energy).all()
@@ -208,4 +208,4 @@ def test_sections_and_measures_of_a_picture_that_came_late_wait_too(lens, field,
 
 def test_what_is_found_within_a_frame_does_not_wait():
     answer = live(with_lens(State(), "cooke_triplet"))
-    assert isinstance(contrast(answer), Contrast) and profiles(answer).pending is None
+    assert isinstance(contrast(answer).found, Contrast) and profiles(answer).found.pending is None

@@ -22,7 +22,7 @@ from tests.support.windows.events import choose
 
 
 def asked(**changes):
-    return question(compute.live(new_state(method="seidel", **changes)))
+    return question(compute.live(new_state(method="seidel", **changes))).question
 
 
 @pytest.fixture

@@ -54,7 +54,7 @@ LIVE = compute.live(FAST)
 
 
 def asked(**changes):
-    return question(compute.live(change(FAST, **changes)))
+    return question(compute.live(change(FAST, **changes))).question
 
 
 @pytest.fixture(scope="module")
@@ -209,7 +209,7 @@ def test_every_shipped_lens_has_its_first_picture_within_a_second(name, field):
         state = change(state, photo_pixel_um=None)
     elif field is not None:
         state = change(state, field_deg=float(field))
-    request = question(replace(LIVE, state=state, setup=paraxial_setup(state)))
+    request = question(replace(LIVE, state=state, setup=paraxial_setup(state))).question
     spent = []
     for _ in range(2):  # the first time libraries are loaded and tables made
         began = process_time()
@@ -224,7 +224,7 @@ def test_every_shipped_lens_has_its_first_picture_within_a_second(name, field):
 
 def test_a_picture_of_rays_says_so():
     state = default_state("fast_gauss_f14")
-    found = coarse(question(replace(LIVE, state=state, setup=paraxial_setup(state))))
+    found = coarse(question(replace(LIVE, state=state, setup=paraxial_setup(state))).question)
     assert by_rays(found.plan) and (Message("Rays"), RAY_NOTE) in found.notes and found.no_plan == TOO_WIDE
     near = coarse(asked())
     assert not by_rays(near.plan) and Message("Rays") not in dict(near.notes)
@@ -253,7 +253,7 @@ def test_rays_make_nearly_the_picture_of_waves():
 @pytest.mark.parametrize("name", ["relay", "eye_navarro", "landscape"])
 def test_other_lenses_have_a_picture(name):
     state = change(default_state(name), method="seidel", photo_pixel_um=16.0, field_deg=0.0)
-    found = coarse(question(compute.live(state)))
+    found = coarse(question(compute.live(state)).question)
     assert found.after.shape == (ROWS, COLUMNS, 3) and np.isfinite(found.after).all()
 
 
@@ -391,7 +391,7 @@ def test_a_photo_taken_by_a_tilted_sensor_is_sharpened_by_a_plan(tmp_path, clip)
     write_photo(tmp_path / "taken.tif", np.random.default_rng(0).random((64, 96, 1), np.float32), "linear")
     taken = dict(photo_show="taken", photo_pixel_um=16.0, photo_source=str(tmp_path / "taken.tif"))
     state = change(new_state(), f_number=5.6, errors=(("tilt_x", 12, 12, 3.0),), clip=clip, **taken)
-    asked = question(compute.live(state))
+    asked = question(compute.live(state)).question
     found = image.planned_picture(asked)
     scene, lattice = found.plan.scene, found.lattice
     assert found.plan.decisions and asked.lens.sensor_before
@@ -417,14 +417,14 @@ def test_a_photo_that_is_missing_leaves_the_button_to_choose_another(window, ima
 
 def test_the_picture_has_the_pixels_of_the_stage_as_far_as_the_field_goes():
     """The coarse picture shows the same part of the field in few pixels; the sensor stays within the field."""
-    asked = question(compute.live(default_state("cooke_triplet"), "preview"))
+    asked = question(compute.live(default_state("cooke_triplet"), "preview")).question
     assert on_stage(asked, (200, 300)) is asked and on_stage(asked, (230, 400)) == asked
     larger = on_stage(asked, (650, 900))
     assert larger.shape == (520, 780) and larger.pixel_um == asked.pixel_um
     few = in_few_pixels(larger)
     assert few.shape == (ROWS, COLUMNS)
     assert few.pixel_um * COLUMNS == pytest.approx(larger.pixel_um * larger.shape[1])
-    small = question(compute.live(default_state("phone_f28"), "preview"))
+    small = question(compute.live(default_state("phone_f28"), "preview")).question
     found = on_stage(small, (1200, 1800))
     assert found.shape == (ROWS, COLUMNS), "12 mm are more than its field"
     scene_of(found)

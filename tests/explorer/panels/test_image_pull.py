@@ -25,7 +25,7 @@ STEPS = new_state(
 
 
 def asked(**changes):
-    return question(compute.live(change(STEPS, **changes)))
+    return question(compute.live(change(STEPS, **changes))).question
 
 
 @pytest.fixture(scope="module")

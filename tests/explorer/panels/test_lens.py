@@ -47,7 +47,7 @@ def test_focal_surfaces_move_with_the_sensor(window):
 
 @pytest.mark.parametrize(("lens", "word"), [("double_gauss_28", "barrel"), ("telephoto", "pincushion")])
 def test_distortion_bends_the_grid_the_way_its_sign_says(lens, word):
-    view = field_curves(live(change(with_lens(PAINTED, lens), method="seidel")))
+    view = field_curves(live(change(with_lens(PAINTED, lens), method="seidel"))).found
     corner, own = np.nanmax(np.hypot(*view.bent.T)), np.nanmax(np.hypot(*view.straight.T))
     share = view.heights.distortion[np.isfinite(view.heights.distortion)][-1]
     assert (share < 0) == (word == "barrel")
@@ -81,7 +81,7 @@ def test_the_present_wavelength_is_marked(window):
 def test_the_stop_lies_on_the_axis_of_the_ybar_diagram_and_the_image_on_the_other(window):
     panel = opened(window, "ybar")
     chief, marginal = panel.path.data()
-    stop = window.live.views["ybar"].stop
+    stop = window.live.views["ybar"].found.stop
     assert chief[stop] == pytest.approx(0, abs=1e-9)
     assert marginal[-1] == pytest.approx(0, abs=2e-3), "the file's sensor is rounded to a µm"
     assert chief[-1] == pytest.approx(float(window.live.setup.coefficients.image_height))
@@ -99,17 +99,17 @@ def test_a_source_on_the_axis_has_no_diagram_and_says_so(window):
 
 def test_the_data_table_knows_the_double_gauss(window):
     opened(window, "first_order", depth_mm=2000.0)
-    rows = {name: value.text(WINDOW) for column in first_order(window.live) for name, value, _ in column}
+    rows = {name: value.text(WINDOW) for column in first_order(window.live).found for name, value, _ in column}
     assert rows["Focal length f′"] == "100.004 mm"
     assert rows["Lagrange invariant"] == "2.9385 mm"
     assert float(rows["Magnification"].replace("−", "-")) == pytest.approx(-100.004 / (2000 - 29.321), abs=1e-4)
-    assert [table._rows for table in window.panels["first_order"].tables] == list(first_order(window.live))
+    assert [table._rows for table in window.panels["first_order"].tables] == list(first_order(window.live).found)
 
 
 @pytest.mark.parametrize(("blur", "number"), [(30.0, 5.6), (10.0, 5.6), (30.0, 16.0)])
 def test_the_hyperfocal_distance_is_f_squared_over_n_c(window, blur, number):
     opened(window, "depth_of_field", blur_um=blur, f_number=number)
-    view = window.live.views["depth_of_field"]
+    view = window.live.views["depth_of_field"].found
     focal = 100.004
     # f²/(Nc) from the front focus; the entrance pupil lies behind the first vertex, the exit pupil's scale adds f.
     assert view.hyperfocal_mm == pytest.approx(focal**2 / (number * blur / 1e3) + 29.3, rel=2e-3)
@@ -117,9 +117,9 @@ def test_the_hyperfocal_distance_is_f_squared_over_n_c(window, blur, number):
 
 def test_focused_at_the_hyperfocal_distance_infinity_is_just_sharp_and_half_of_it_too(window):
     opened(window, "depth_of_field", blur_um=30.0, f_number=8.0)
-    hyperfocal = window.live.views["depth_of_field"].hyperfocal_mm
+    hyperfocal = window.live.views["depth_of_field"].found.hyperfocal_mm
     window.store.update(focus_mm=hyperfocal)
-    near, far = window.live.views["depth_of_field"].sharp_mm
+    near, far = window.live.views["depth_of_field"].found.sharp_mm
     assert far == inf or far > 1e7
     assert near == pytest.approx(hyperfocal / 2, rel=2e-3)
 
@@ -137,7 +137,7 @@ def test_the_plot_shows_what_there_is_of_both_curves(changes):
     """Neither curve leaves the plot at once nor lies flat on its floor, though the sensor is far from any focus."""
     for name in set(shipped_lenses()) - {"telecentric_relay"}:  # which has no image of an object at infinity
         found = live(change(with_lens(PAINTED, name), method="seidel", **changes), "preview")
-        view = depth_of_field(found)
+        view = depth_of_field(found).found
         top = highest(view)
         for blur in (view.paraxial, view.real):
             assert np.isnan(blur).all() or (
@@ -156,7 +156,7 @@ def test_what_is_called_sharp_is_what_the_blur_at_each_depth_says(lens, blur):
     """Against the blur itself, from next to the lens to 10 km; 2 mm is all depths of the reverse telephoto."""
     state = change(with_lens(PAINTED, lens), method="seidel", blur_um=blur)
     found = live(state, "preview")
-    answer, depths = depth_of_field(found), np.geomspace(1e-3, 1e7, 400)
+    answer, depths = depth_of_field(found).found, np.geomspace(1e-3, 1e7, 400)
     sharp = 2e3 * np.abs(axial_blur(found.setup).heights_mm(depths)) <= blur
     near, far = answer.sharp_mm or (inf, 0.0)
     assert np.array_equal((depths >= near) & (depths <= far), sharp)
@@ -167,18 +167,18 @@ def test_where_every_depth_is_sharp_the_panel_says_so(window):
     window.store.update(lens="reverse_telephoto", tab="depth_of_field", blur_um=2000.0)
     panel = window.panels["depth_of_field"]
     assert "sharp from the lens itself to ∞" in panel.widget.readout.text()
-    assert panel.chart.sharp == (0.0, window.live.views["depth_of_field"].near[-1])
+    assert panel.chart.sharp == (0.0, window.live.views["depth_of_field"].found.near[-1])
 
 
 def test_a_typed_blur_widens_what_is_sharp_and_nonsense_is_refused(window, qtbot):
     panel = opened(window, "depth_of_field", focus_mm=2000.0)
-    before = window.live.views["depth_of_field"].sharp_mm
+    before = window.live.views["depth_of_field"].found.sharp_mm
     panel.blur.edit.setFocus()
     panel.blur.edit.selectAll()
     qtbot.keyClicks(panel.blur.edit, "0.1 mm")
     qtbot.keyClick(panel.blur.edit, Qt.Key.Key_Return)
     assert window.store.state.display.blur_um == 100.0
-    after = window.live.views["depth_of_field"].sharp_mm
+    after = window.live.views["depth_of_field"].found.sharp_mm
     assert after[0] < before[0] and after[1] > before[1]
     panel.blur.edit.selectAll()
     qtbot.keyClicks(panel.blur.edit, "wide")
@@ -189,15 +189,15 @@ def test_a_typed_blur_widens_what_is_sharp_and_nonsense_is_refused(window, qtbot
 @pytest.mark.parametrize("lens", ["relay", "eye_navarro", "periskop", "fast_gauss_f14"])
 def test_every_kind_of_lens_has_an_answer(lens):
     answer = live(change(with_lens(PAINTED, lens), method="seidel"), "preview")
-    assert np.isfinite(field_curves(answer).real.sagittal[0])
-    found = depth_of_field(answer)
+    assert np.isfinite(field_curves(answer).found.real.sagittal[0])
+    found = depth_of_field(answer).found
     assert found.sharp_mm is None or found.sharp_mm[0] < found.sharp_mm[1]
 
 
 def test_the_petzval_radius_is_what_its_tip_says(window):
     """A thin positive lens in air has −n·f′ (Welford 1986, §8.4), and so a sum of the same sign: c(1/n − 1) < 0."""
     window.store.replace(with_lens(window.store.state, "singlet_f6"))
-    rows = {name: (value.text(WINDOW), tip) for column in first_order(window.live) for name, value, tip in column}
+    rows = {name: (value.text(WINDOW), tip) for column in first_order(window.live).found for name, value, tip in column}
     value, tip = rows["Petzval radius"]
     radius = float(value.split()[0].replace("−", "-"))
     s = window.live.setup

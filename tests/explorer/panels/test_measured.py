@@ -89,7 +89,7 @@ def sharpened_by_what_was_measured(panel, store, folder, shift):
 
     def quality(**changes):
         found = image.planned_picture(
-            image.question(live(change(taken, photo_source=str(folder / "photo.tif"), **changes)))
+            image.question(live(change(taken, photo_source=str(folder / "photo.tif"), **changes))).question
         )
         return psnr(found.after[16:-16, 16:-16, :1], truth[16:-16, 16:-16])
 

@@ -25,7 +25,7 @@ def between(frequency_per_mm: np.ndarray) -> np.ndarray:
 
 def test_a_perfect_lens_has_the_closed_form_between_the_samples():
     answer = live(change(ALONE, added_waves=(1e-9, 0.0, 0.0, 0.0, 0.0, 0.0)))
-    found, source = contrast(answer), answer.setup.source
+    found, source = contrast(answer).found, answer.setup.source
     asked = between(found.frequency_per_mm)
     exact = diffraction_mtf(asked, float(answer.setup.coefficients.na), source.wavelength_um)
     for curve in (found.tangential, found.sagittal):
@@ -36,7 +36,7 @@ def test_a_perfect_lens_has_the_closed_form_between_the_samples():
 @pytest.mark.parametrize("waves", [(0.0, 0.0, 0.0, 0.0, 6.0, 0.0), (4.0, 6.0, 3.0, 0.0, 0.0, 0.0)])
 def test_what_is_painted_is_the_autocorrelation_of_the_pupil(waves):
     answer = live(change(ALONE, added_waves=waves))
-    found = contrast(answer)
+    found = contrast(answer).found
     c = answer.setup.coefficients
     for nu in (0.0131, 0.0517, 0.113, 0.27, 0.61):  # of the cut-off
         asked = nu * 2000 * float(c.na) / float(c.wavelength_um)
@@ -51,7 +51,7 @@ def test_a_slow_transfer_function_follows_and_no_wrong_curve_is_shown(window, qt
     """At 1.5 m the Petzval focused at infinity has hundreds of waves: asked of the worker, then painted."""
     window.store.update(lens="petzval", method="traced", field_deg=3.0, depth_mm=700.0, tab="mtf")
     panel = window.panels["mtf"]
-    request = window.live.views["mtf"]
+    request = window.live.views["mtf"].question
     assert isinstance(request, MeasureRequest) and panel.late.asked == request
     settled(panel, qtbot)
     frequency, contrast = panel.curves["tangential"].data()

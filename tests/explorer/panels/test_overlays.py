@@ -78,8 +78,8 @@ def test_while_a_slider_moves_slow_curves_wait_until_it_is_held(window, panel, q
     with window.store.drag():
         for f_number in (5.6, 6.0):
             window.store.update(f_number=f_number)
-            assert panel.late.asked != window.live.views["curves"], "frames come first"
-        qtbot.waitUntil(lambda: panel.late.asked == window.live.views["curves"])
+            assert panel.late.asked != window.live.views["curves"].question, "frames come first"
+        qtbot.waitUntil(lambda: panel.late.asked == window.live.views["curves"].question)
 
 
 @pytest.mark.parametrize("count", [1, 2, 15, 61])

@@ -12,7 +12,7 @@ FIRST = new_state(method="seidel", theme="light")
 
 
 def test_without_aberrations_this_lens_is_the_perfect_one():
-    view = beside(live(change(FIRST, free_pupil=True)))
+    view = beside(live(change(FIRST, free_pupil=True))).found
     assert view.real == pytest.approx(view.perfect, abs=2e-3)  # the settled sum keeps 1e-4 of the whole
 
 

@@ -31,7 +31,7 @@ def on_surface(window, surface):
 
 
 def test_bars_are_as_high_as_the_contributions_and_the_last_is_their_sum(window, panel):
-    waves = window.live.views["seidel"].waves["w40"]
+    waves = window.live.views["seidel"].found.waves["w40"]
     zero = float(panel.chart.to_pixels(0.0, 0.0)[1])
     per_wave = zero - float(panel.chart.to_pixels(0.0, 1.0)[1])
     for bar in panel.chart.bars:
@@ -44,7 +44,7 @@ def test_bars_are_as_high_as_the_contributions_and_the_last_is_their_sum(window,
 
 def test_all_sums_stand_side_by_side_and_add_up(window, panel):
     choose(panel.term, "all")
-    waves = window.live.views["seidel"].waves
+    waves = window.live.views["seidel"].found.waves
     count = len(waves["w40"])
     for surface in range(1, count + 1):
         mine = [bar for bar in panel.chart.bars if bar.surface == surface]
@@ -65,7 +65,7 @@ def test_the_chromatic_sums_are_the_change_of_focus_and_height_between_the_lens_
     """To first order in the dispersion: the difference of the coefficients themselves, the sensor in the image."""
     window.store.update(focus_mm=float("inf"), field_deg=10.0)
     live = window.live
-    setup, waves = live.setup, live.views["seidel"].waves
+    setup, waves = live.setup, live.views["seidel"].found.waves
     ends = [
         coefficients(setup.lens, setup.source.depth_mm, setup.source.field_slope, nm / 1000, setup.stop)
         for nm in (486.1327, 656.2725)

@@ -35,7 +35,7 @@ def test_four_fifths_of_a_perfect_lens_light_lie_inside_the_first_ring(window):
 @pytest.mark.parametrize(("method", "lens"), [("seidel", "double_gauss_28"), ("fitted", "double_gauss_28")])
 def test_fine_sections_go_through_the_samples_of_the_picture(method, lens):
     answer = live(change(FIRST, method=method, f_number=8.0, field_deg=7.0, lens=lens))
-    view, psf = profiles(answer), answer.psf
+    view, psf = profiles(answer).found, answer.psf
     assert view.position_um.size > 3 * psf.values.shape[-1]
     rows = psf.values.shape[0] // 2
     scale = float(psf.sum_over_peak)
@@ -71,7 +71,7 @@ def test_defocus_spreads_the_energy(window):
 def test_where_rays_are_clipped_the_samples_are_shown():
     answer = live(change(FIRST, method="traced", field_deg=14.0, f_number=5.6, clip=True), "preview")
     answer = replace(answer, quality="settled")
-    view = profiles(answer)
+    view = profiles(answer).found
     middle = answer.psf.values[answer.psf.values.shape[0] // 2]
     assert np.interp(answer.psf.x_um, view.position_um, view.along_x).argmax() == middle.argmax()
 

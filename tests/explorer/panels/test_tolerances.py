@@ -173,7 +173,7 @@ def test_the_sensor_can_be_tilted_at_assembly(panel, window, qtbot):
 
 def test_the_field_on_screen_does_not_matter(window):
     states = [new_state(lens=LENS, field_deg=field) for field in (0.0, 1.0)]
-    one, two = (analysis.question(live(state, "settled", {})).request for state in states)
+    one, two = (analysis.question(live(state, "settled", {})).question.request for state in states)
     assert one == two
 
 
@@ -214,7 +214,7 @@ def test_without_compensators_the_designed_lens_has_the_wavefront_of_its_worst_f
     lens, found = find_lens(LENS), {}
     for compensators in ((("thickness", 0, 0),), ()):
         state = new_state(lens=LENS, tolerances_compensators=compensators)
-        asked = live(state, "settled", {"tolerances": analysis.question}).views["tolerances"]
+        asked = live(state, "settled", {"tolerances": analysis.question}).views["tolerances"].question
         result = analysis.Analyst().answer(asked.request, lambda: False, lambda _: None)
         found[bool(compensators)] = analysis.figures(result, state.tolerances).nominal
     edge = zernike_fit(lens, Source(field_deg=5.0, wavelength_um=lens.reference_wavelength_um)).rms

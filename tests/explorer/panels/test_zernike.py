@@ -29,7 +29,8 @@ def panel(window):
 @pytest.mark.parametrize("clip", [False, True])
 def test_the_terms_are_those_of_the_library(order, clip):
     answer = live(new_state(**TELEPHOTO, clip=clip))
-    ours, theirs = zernike(answer).fits[order], zernike_fit(answer.setup.lens, answer.setup.source, order, 37, clip)
+    ours = zernike(answer).found.fits[order]
+    theirs = zernike_fit(answer.setup.lens, answer.setup.source, order, 37, clip)
     # The library finds the corners of a clipped pupil; the window takes a thousandth of its rim.
     assert np.allclose(ours.rms_waves, theirs.rms_waves, rtol=0, atol=2e-4 if clip else 1e-6)
     assert ours.clear == pytest.approx(theirs.clear, abs=1e-3) and (ours.clear < 1) == clip
@@ -39,7 +40,7 @@ def test_the_terms_are_those_of_the_library(order, clip):
 @pytest.mark.parametrize("clip", [False, True])
 def test_panel_headline_and_pupil_agree(quality, clip):
     answer = live(new_state(**TELEPHOTO, clip=clip), quality)
-    fit = zernike(answer).fits["noll"]
+    fit = zernike(answer).found.fits["noll"]
     assert fit.rms == pytest.approx(answer.pupil.rms, rel=0.01)
     values = answer.dominant.values
     term = values["term"].template if "term" in values else "defocus"
@@ -69,7 +70,7 @@ def terms_of_a_grid(setup, clip):
 )
 def test_terms_of_a_misaligned_lens_are_over_the_whole_pupil(name, field, clip, quality):
     answer = live(new_state(lens=name, field_deg=field, method="traced", clip=clip, errors=MISALIGNED), quality)
-    fit = zernike(answer).fits["noll"]
+    fit = zernike(answer).found.fits["noll"]
     expected, passed = terms_of_a_grid(answer.setup, clip)
     assert fit.clear == pytest.approx(passed, abs=0.003) and (passed < 1) == clip
     assert np.abs(expected[[k for k, term in enumerate(fit.terms) if not term.even]]).max() > 0.01
@@ -80,13 +81,13 @@ def test_terms_of_a_misaligned_lens_are_over_the_whole_pupil(name, field, clip, 
 
 def test_the_six_coefficients_and_waves_by_hand_have_their_own_terms():
     answer = live(new_state(free_pupil=True, added_waves=(0.0, 1.5, 0.0, 0.0, 0.0, 0.0)))
-    fit = zernike(answer).fits["noll"]
+    fit = zernike(answer).found.fits["noll"]
     assert fit.waves[6] == pytest.approx(1.5 / (3 * np.sqrt(8)), abs=1e-12)  # ρ²η = Z7/(3√8) + Z3/3
     assert fit.waves[2] == pytest.approx(1.5 / 3, abs=1e-12) and fit.share[6] == pytest.approx(1)
 
 
 def test_the_panel_shows_bars_table_and_figures(window, panel):
-    fit = window.live.views["zernike"].fits["noll"]
+    fit = window.live.views["zernike"].found.fits["noll"]
     zero = float(panel.chart.to_pixels(0.0, 0.0)[1])
     per_wave = zero - float(panel.chart.to_pixels(0.0, 1.0)[1])
     shown = dict(panel.chart.bars())
@@ -123,9 +124,9 @@ def test_all_terms_are_copied_as_csv(panel):
 def test_a_minus_b_is_the_difference_of_the_coefficients(window, panel):
     from p2sf_explorer.state.pinning import pin
 
-    own = window.live.views["zernike"].fits["noll"].waves
+    own = window.live.views["zernike"].found.fits["noll"].waves
     window.store.replace(pin(window.store.state))
     window.store.update(field_deg=5.0, shown="difference")
-    found = window.live.views["zernike"].fits["noll"].waves
-    other = zernike(live(new_state(**{**TELEPHOTO, "field_deg": 5.0}))).fits["noll"].waves
+    found = window.live.views["zernike"].found.fits["noll"].waves
+    other = zernike(live(new_state(**{**TELEPHOTO, "field_deg": 5.0}))).found.fits["noll"].waves
     assert found == pytest.approx(other - own, abs=1e-9)

@@ -23,7 +23,7 @@ SIDE = SceneCamera(turn=0.0, tilt=0.0)
 
 
 def scene_at(**changes):
-    return scene(live(change(FIRST, **changes), "preview"))
+    return scene(live(change(FIRST, **changes), "preview")).found
 
 
 @pytest.fixture(scope="module")

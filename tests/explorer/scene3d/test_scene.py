@@ -97,7 +97,7 @@ def test_glass_is_where_the_lens_has_it(name):
 @pytest.mark.parametrize("name", LENSES)
 def test_rays_meet_every_surface_and_end_at_the_image(name):
     answer = live(change(default_state(name), method="seidel"), "preview")
-    shown, lens = scene(answer), answer.setup.lens
+    shown, lens = scene(answer).found, answer.setup.lens
     for number, (surface, vertex) in enumerate(zip(lens.surfaces, vertices(lens), strict=False), 1):
         x, y, z = shown.rays[:, number].T
         assert z == pytest.approx(vertex + sag(surface, np.hypot(x, y)), abs=1e-9)
@@ -113,7 +113,7 @@ def test_rays_meet_every_surface_and_end_at_the_image(name):
 def test_the_wavefront_is_a_sphere_about_the_image_that_defocus_bends(shift_um):
     """A sensor moved away by Δz: W = NA²Δz/2λ > 0 at the rim, so the rim runs ahead and the front is more curved."""
     state = new_state(method="seidel", field_deg=0.0, f_number=16.0, sensor_shift_um=shift_um)
-    shown = scene(live(state, "preview"))
+    shown = scene(live(state, "preview")).found
     away = np.linalg.norm(shown.front.mesh.points - shown.rays[0, -1], axis=1)
     wave_mm = 1e-3 * 0.5875618
     assert away[0] - away == pytest.approx(shown.front.factor * wave_mm * shown.front.waves, abs=1e-9)
@@ -123,7 +123,7 @@ def test_the_wavefront_is_a_sphere_about_the_image_that_defocus_bends(shift_um):
 
 def test_the_relief_stands_on_the_image_point_and_peaks_where_the_psf_does():
     answer = live(new_state(method="seidel", field_deg=0.0, f_number=11.0, psf_scale="linear"), "preview")
-    shown = scene(answer)
+    shown = scene(answer).found
     highest = shown.psf_surface.mesh.points[shown.psf_surface.values.argmax()]
     assert highest[:2] == pytest.approx(shown.rays[0, -1, :2], abs=1e-9)
     assert highest[2] < answer.layout.drawing.sensor_z
@@ -145,7 +145,7 @@ def test_revolving_about_a_hole_needs_no_axis():
 def test_a_sensor_that_touches_the_glass_or_stands_in_it_has_a_wavefront_too(sensor_mm):
     """Found by random hands: the wavefront was drawn between last glass and sensor, where there was no room."""
     lens = with_sensor(find_lens("double_gauss_28"), sensor_mm)
-    found = scene(live(change(default_state("double_gauss_28"), lens_text=lens_to_toml(lens))))
+    found = scene(live(change(default_state("double_gauss_28"), lens_text=lens_to_toml(lens)))).found
     assert found.front.factor > 0 and np.isfinite(found.front.mesh.points).all()
     assert np.ptp(found.front.mesh.points, axis=0).max() > 0.01
 
@@ -153,7 +153,7 @@ def test_a_sensor_that_touches_the_glass_or_stands_in_it_has_a_wavefront_too(sen
 def test_a_lens_tilted_by_next_to_nothing_stands_where_the_straight_one_does():
     """The parts of a misaligned lens are placed by its frames, those of a straight one along its axis."""
     straight, tilted = (
-        scene(live(new_state(errors=errors), "preview")) for errors in ((), (("tilt_x", 12, 12, 1e-7),))
+        scene(live(new_state(errors=errors), "preview")).found for errors in ((), (("tilt_x", 12, 12, 1e-7),))
     )
     for name in ("stop", "sensor"):
         assert getattr(tilted, name).points == pytest.approx(getattr(straight, name).points, abs=1e-6)
@@ -164,7 +164,7 @@ def test_a_lens_tilted_by_next_to_nothing_stands_where_the_straight_one_does():
 
 def test_the_psf_stands_where_the_chief_ray_meets_a_tilted_sensor():
     errors = ("decentre_y", 3, 5, 0.1), ("tilt_x", 12, 12, 5.0)
-    found = scene(live(new_state(errors=errors, field_deg=5.0, field_x_deg=4.0), "preview"))
+    found = scene(live(new_state(errors=errors, field_deg=5.0, field_x_deg=4.0), "preview")).found
     middle = found.psf_surface.mesh.points.reshape(64, 64, 3)[32, 32]
     ended, normal = found.rays[0, -1], np.array([0.0, -np.sin(np.deg2rad(5.0)), np.cos(np.deg2rad(5.0))])
     away = middle - ended

@@ -73,7 +73,7 @@ def test_the_warning_names_every_tab_that_does_not_follow():
 def test_the_wavefront_in_space_is_the_altered_one():
     """A free pupil with W31 alone: ½ λ ahead at the rim towards the field, ½ λ behind on the other side."""
     state = new_state(free_pupil=True, added_waves=with_added(State(), "w31", 0.5))
-    waves = scene(compute.live(state, "preview")).front.waves
+    waves = scene(compute.live(state, "preview")).found.front.waves
     assert (waves.max(), waves.min()) == pytest.approx((0.5, -0.5))
 
 

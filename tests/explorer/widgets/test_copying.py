@@ -44,7 +44,7 @@ def test_what_is_copied_is_light_and_not_brightness(window, scale):
     psf, maps = window.panels["psf"].psf_shown(window.live), window.panels["beside"].maps
     rows, grid = grid_of(window.panels["psf"].map)
     assert rows[0][0].startswith("PSF, sum = 1: y, µm") and grid == pytest.approx(psf.values, rel=1e-6, abs=1e-12)
-    view = window.live.views["beside"]
+    view = window.live.views["beside"].found
     for heat, values in zip(maps, (view.real, view.perfect, view.pixels), strict=True):
         assert grid_of(heat)[1] == pytest.approx(np.asarray(values), rel=1e-6, abs=1e-12)
     rows, grid = grid_of(window.panels["pupil"].map)

@@ -175,7 +175,7 @@ def test_only_the_open_tab_is_computed(window):
 
 def test_seidel_bars_add_up_to_the_coefficients(window):
     window.open_panel("seidel")
-    waves, c = window.live.views["seidel"].waves, window.live.setup.coefficients
+    waves, c = window.live.views["seidel"].found.waves, window.live.setup.coefficients
     expected = {name: float(getattr(c, name)) for name in ("w40", "w31", "w22", "w20", "w11")}
     expected["petzval"] = expected["w20"] - expected["w22"] / 2
     for name, value in expected.items():

@@ -444,7 +444,7 @@ def interpolation_error(rule: str) -> Callable[[State], float]:
     def error(state: State) -> float:
         from p2sf_explorer.compute.views.database import nodes, question
 
-        space = nodes(question(compute.live(state)))
+        space = nodes(question(compute.live(state)).question)
         depths, blue = space.depths_mm, float(space.wavelengths_um[:2].mean())  # waves are the most in blue
         lens, _ = lens_and_source(state)
         plane = entrance_pupil(system_of(lens, blue))[0]
@@ -481,7 +481,7 @@ def sharpening(state: State) -> float:
     from p2sf_explorer.compute.views.image import COLUMNS, ROWS, coarse, question
     from p2sf_explorer.compute.views.photos import scene_values
 
-    found = coarse(question(compute.live(change(state, method="seidel"))))
+    found = coarse(question(compute.live(change(state, method="seidel"))).question)
     truth = scene_values(state.photo.source, (ROWS, COLUMNS))
     before, after = (float(((picture - truth) ** 2).mean()) for picture in (found.before, found.after))
     return 10 * float(np.log10(before / after))

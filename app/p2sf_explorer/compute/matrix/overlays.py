@@ -18,7 +18,7 @@ from p2sf.pixel_kernels.illumination import light_passed, relative_illumination
 from p2sf.pixel_kernels.sensor_points import sensor_map
 from p2sf.psf.polychromatic import bands_through, chief_shifts_um
 from p2sf.raytrace.field_curves import heights
-from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.matrix.points import spectral_lines, stated_fields, usual_wavelengths
 from p2sf_explorer.compute.measured import MeasureRequest, measured_parts
 from p2sf_explorer.compute.sampled import optics
@@ -83,10 +83,12 @@ class CurveOverlay:
     missing: Message | None = None
 
 
-def overlay(live: Live) -> CurveOverlay | OverlayRequest:
+def overlay(live: Live) -> View[CurveOverlay | None]:
     """Return the curves of the present setup, or the request for them where they are too slow for a frame."""
     request = overlay_request(live)
-    return AT_A_TIME[request.of](request) if request.of in AT_ONCE else request
+    if request.of in AT_ONCE:
+        return View(AT_A_TIME[request.of](request))
+    return View(None, request, held=live.quality == "preview")
 
 
 def overlay_request(live: Live) -> OverlayRequest:

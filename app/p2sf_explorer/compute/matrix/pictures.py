@@ -26,7 +26,7 @@ from p2sf.raytrace.ray_field import AIRY_RADIUS
 from p2sf.raytrace.spot import Spot
 from p2sf_explorer.compute.deferred_sums import psf_request
 from p2sf_explorer.compute.framing import LightRings, light_rings
-from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.matrix.points import MatrixRequest, matrix_request, nearest
 from p2sf_explorer.compute.matrix.tiles import Light, Lines, MatrixTile, SpotTile, Tiles, WavefrontTile, refused_tile
 from p2sf_explorer.compute.measured import MeasureRequest, measured_parts
@@ -112,17 +112,19 @@ class MatrixPoint:
         return Preview(rays, self.setup, perf_counter()) if isinstance(rays, Rays) and rays.passed.all() else None
 
 
-def matrix(live: Live) -> Matrix:
+def matrix(live: Live) -> View[Matrix]:
     """Return the matrix of the present setup, with the pictures that fit a frame."""
     request = matrix_request(live)
     at_once = request.what in AT_ONCE and not (request.what == "spot" and live.state.optics.clip)
     quality = live.quality if at_once else "preview"
-    before = live.before.get("matrix")
-    if live.quality == "preview" and isinstance(before, Matrix) and in_turns(request, before):
+    before: Matrix | None = live.before["matrix"].found if "matrix" in live.before else None
+    if live.quality == "preview" and before and in_turns(request, before):
         row, column, _ = nearest(request, live.state, live.side)
-        return renewed(request, before, row * len(request.columns) + column)
+        made = renewed(request, before, row * len(request.columns) + column)
+        return View(made, request if made.waiting else None, held=True)
     tiles = previews(request, quality) if request.what in IN_A_FRAME else None
-    return Matrix(request, tiles, quality == "settled")
+    enough = quality == "settled" or (tiles and live.quality == "preview")
+    return View(Matrix(request, tiles, quality == "settled"), None if enough else request)
 
 
 @lru_cache(maxsize=4)

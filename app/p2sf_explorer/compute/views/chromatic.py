@@ -6,7 +6,7 @@ import numpy as np
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.raytrace.field_curves import colour_shift
-from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.ranges import wavelength_range
 from p2sf_explorer.compute.setup import prescription
 
@@ -26,11 +26,11 @@ class Chromatic:
     depth_of_focus_um: float
 
 
-def chromatic(live: Live) -> Chromatic:
+def chromatic(live: Live) -> View[Chromatic]:
     """Return the focal shift of every colour at this depth."""
     setup = live.setup
     nm = np.linspace(*wavelength_range(prescription(live.state)), WAVELENGTHS[live.quality])
     shift = 1e3 * colour_shift(setup.lens, setup.source.depth_mm, nm / NM_PER_UM, ZONES, setup.stop)
     index, na = float(setup.own.image_index), setup.cone.na
     half = abs(index) * setup.source.wavelength_um / (2 * na**2) if na else np.inf
-    return Chromatic(nm, shift, half)
+    return View(Chromatic(nm, shift, half))

@@ -9,16 +9,14 @@ import numpy as np
 from p2sf.colour.colorimetry import displayable, linear_rgb, matching, srgb_from_linear
 from p2sf.colour.spectrum import relative_power, spectrum_of
 from p2sf.conventions import NM_PER_UM
-from p2sf.errors import P2SFError
 from p2sf.figures.colour_psf import ColourPsf, faint_rgb
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.messages import Message
 from p2sf.psf.polychromatic import colour_psf, suitable_pitch_um
 from p2sf.psf.result import Psf
 from p2sf_explorer.compute.brightness import stretch
 from p2sf_explorer.compute.finer import smooth
-from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.method import WINDOWS
 from p2sf_explorer.compute.sampled import by_coefficients, in_window, optics
 from p2sf_explorer.compute.setup import paraxial_setup
@@ -62,16 +60,15 @@ class Colours:
     hues: np.ndarray
 
 
-def question(live: Live) -> ColourQuestion | Message:
-    """Return what to show for the present point, or why there is nothing."""
+def question(live: Live) -> View[None]:
+    """Return what to show for the present point. Raises P2SFError for a line outside the glasses' data."""
     s, pixels = live.setup, PIXELS[live.quality]
     spectrum = spectrum_of(live.state.display.spectrum)
-    try:
-        pitch = suitable_pitch_um(s.lens, s.source, spectrum, pixels, s.stop)
-    except P2SFError as error:  # a line outside the glasses' data: the rest of the window has its answer
-        return error.message
+    pitch = suitable_pitch_um(s.lens, s.source, spectrum, pixels, s.stop)
     window = pixels, nice(pixels * pitch, WINDOWS) / pixels
-    return ColourQuestion(optics(live.state), spectrum.name, window, COUNT[live.quality], by_coefficients(live))
+    return View(
+        None, ColourQuestion(optics(live.state), spectrum.name, window, COUNT[live.quality], by_coefficients(live))
+    )
 
 
 def answer(request: ColourQuestion, stopped: Callable[[], bool], tell: Callable[[float, object], None]) -> Colours:

@@ -24,7 +24,7 @@ from p2sf.paraxial.pupils import Stop
 from p2sf.paraxial.wavefront import steepest_slope
 from p2sf.psf.seidel import suitable_pixel_um
 from p2sf.spans import depth_nodes
-from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.setup import prescription, ranges
 
 NODES = (20, 21, 31)  # depths, fields, wavelengths: the defaults of the command line
@@ -82,21 +82,24 @@ class DatabaseResult:
     accuracy: Message | None = None
 
 
-def question(live: Live) -> DatabaseRequest:
+def question(live: Live) -> View[None]:
     """Return what the maps of the present state depend on."""
     setup, limits = live.setup, ranges(prescription(live.state))
     pupil = -float(setup.pupils.entrance_from_first)
     far = SHORT_OF_PUPIL * pupil if limits.closest_mm / SHORT_OF_PUPIL < pupil < inf else inf
     nm = setup.source.wavelength_um * NM_PER_UM
     low, high = limits.wavelength_nm
-    return DatabaseRequest(
-        setup.lens,
-        int(setup.stop.surface),
-        float(setup.stop.semi_diameter),
-        setup.source.wavelength_um,
-        (limits.closest_mm, far),
-        limits.field_deg,
-        (min(low, nm), max(high, nm)),
+    return View(
+        None,
+        DatabaseRequest(
+            setup.lens,
+            int(setup.stop.surface),
+            float(setup.stop.semi_diameter),
+            setup.source.wavelength_um,
+            (limits.closest_mm, far),
+            limits.field_deg,
+            (min(low, nm), max(high, nm)),
+        ),
     )
 
 

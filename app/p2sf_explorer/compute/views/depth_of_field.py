@@ -11,7 +11,7 @@ from p2sf.lens.lens import seen_from
 from p2sf.paraxial.depth_of_field import AxialBlur
 from p2sf.raytrace.pencil import Sources
 from p2sf.raytrace.spot import RINGS, landing
-from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.ranges import closest_distance
 from p2sf_explorer.compute.setup import ParaxialSetup, prescription
 from p2sf_explorer.state.scales import nice
@@ -42,7 +42,7 @@ class DepthOfField:
     hyperfocal_mm: float
 
 
-def depth_of_field(live: Live) -> DepthOfField:
+def depth_of_field(live: Live) -> View[DepthOfField]:
     """Return the blur at every depth with the sensor where it stands."""
     s, tolerated = live.setup, live.state.display.blur_um
     axial = axial_blur(s)
@@ -52,13 +52,15 @@ def depth_of_field(live: Live) -> DepthOfField:
         near = np.sort(np.append(near, 1 / focus[1]))  # so that the V of the blur reaches its tip
     depths = np.divide(1.0, near, out=np.full(near.shape, inf), where=near > 0)
     heights = axial.heights_mm(depths)
-    return DepthOfField(
-        near,
-        2 * UM_PER_MM * np.abs(heights),
-        real_blur(live, depths, RINGS if live.quality == "settled" else FEWER_RINGS),
-        tolerated,
-        clear,
-        axial.hyperfocal_mm(tolerated),
+    return View(
+        DepthOfField(
+            near,
+            2 * UM_PER_MM * np.abs(heights),
+            real_blur(live, depths, RINGS if live.quality == "settled" else FEWER_RINGS),
+            tolerated,
+            clear,
+            axial.hyperfocal_mm(tolerated),
+        )
     )
 
 

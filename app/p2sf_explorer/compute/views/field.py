@@ -11,7 +11,7 @@ from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import Stop
 from p2sf.paraxial.seidel import coefficients
 from p2sf.raytrace.field_curves import Foci, Heights, heights, real_foci, seidel_foci
-from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.state.scales import nice
 
 FIELDS = {"preview": 13, "settled": 25}
@@ -37,11 +37,11 @@ class FieldView:
     exaggerated: int
 
 
-def field_curves(live: Live) -> FieldView:
+def field_curves(live: Live) -> View[FieldView]:
     """Return the curves of the lens at this depth and wavelength; the same object while only the field moves."""
     s = live.setup
     rim = int(s.stop.surface), float(s.stop.semi_diameter)
-    return curves_of(s.lens, replace(s.source, field_slope=0.0), rim, widest_slope(live), FIELDS[live.quality])
+    return View(curves_of(s.lens, replace(s.source, field_slope=0.0), rim, widest_slope(live), FIELDS[live.quality]))
 
 
 @lru_cache(maxsize=4)

@@ -13,7 +13,7 @@ from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.seidel import suitable_pixel_um
 from p2sf.pupil.domain import HALF, PupilDomain, domain_of
 from p2sf.tolerance.nodal import third_order
-from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.method import WINDOWS
 from p2sf_explorer.compute.sampled import in_window, optics
 from p2sf_explorer.compute.setup import everywhere_by_coefficients, paraxial_setup
@@ -60,7 +60,7 @@ class FieldMapRequest:
         return self.domain.field(*degrees_from_slope(np.asarray(place) * self.corner_slope).tolist())
 
 
-def field_map(live: Live) -> FieldMapRequest:
+def field_map(live: Live) -> View[None]:
     """Return what to show, which does not depend on the present field and so is not repeated while that is dragged."""
     corner, pixels = widest_slope(live), PIXELS[live.quality]
     s = live.setup
@@ -74,7 +74,7 @@ def field_map(live: Live) -> FieldMapRequest:
     bent = s.lens.misaligned and not six
     nodes = nodes_of(s.lens, s.source.depth_mm, s.source.wavelength_um, corner) if bent else ()
     domain = domain_of(s.lens.mask.round and not bent)
-    return FieldMapRequest(state, corner, (pixels, wide / pixels), six, domain, nodes)
+    return View(None, FieldMapRequest(state, corner, (pixels, wide / pixels), six, domain, nodes))
 
 
 @lru_cache(maxsize=8)

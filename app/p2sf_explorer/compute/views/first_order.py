@@ -13,7 +13,7 @@ from p2sf.paraxial.first_order import cardinal_points, image_distance, magnifica
 from p2sf.paraxial.pupils import Stop, f_number, pupils
 from p2sf.paraxial.seidel import coefficients
 from p2sf.raytrace.focusing import focused_vergence
-from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.setup import ParaxialSetup
 from p2sf_explorer.state.scales import MM_PER_UNIT, significant
 
@@ -190,9 +190,9 @@ def described_depth(mm: float) -> Message:
     return Message("object at infinity") if isinf(mm) else Message("object at {distance}", distance=distance(mm))
 
 
-def first_order(live: Live) -> tuple[tuple[Row, ...], ...]:
+def first_order(live: Live) -> View[tuple[tuple[Row, ...], ...]]:
     """Return the columns: the lens by itself, its pupils and rays, this source."""
-    return lens_rows(live), pupil_rows(live), source_rows(live)
+    return View((lens_rows(live), pupil_rows(live), source_rows(live)))
 
 
 def lens_rows(live: Live) -> tuple[Row, ...]:

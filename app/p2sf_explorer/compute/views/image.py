@@ -39,7 +39,7 @@ from p2sf.scene.planning.plan import Plan, plan
 from p2sf.scene.planning.pricing import computed_counts
 from p2sf.scene.scene import Channel, Scene
 from p2sf.scene.sensor import Sensor
-from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.views.depths import (
     FLAT,
     ONE_DISTANCE,
@@ -253,11 +253,11 @@ class ImageResult:
         return pixels(self.after)
 
 
-def question(live: Live) -> ImageRequest:
+def question(live: Live) -> View[None]:
     """Return what the picture of the present state depends on."""
     state, setup = live.state, live.setup
     if state.photo.show == TAKEN:
-        return _photo_request(live)
+        return View(None, _photo_request(live))
     whole = state.photo.pixel_um is None
     centre = 0.0 if whole else round(float(setup.coefficients.image_height), 6)
     photo, optics = state.photo, state.optics
@@ -266,7 +266,7 @@ def question(live: Live) -> ImageRequest:
     depths = depth_choice(state) if photo.show in WITH_DEPTHS else ONE_DISTANCE
     far = optics.depth_mm if depths.source == FLAT else depths.scale.far_mm
     sensor = shape or (ROWS, COLUMNS)
-    return ImageRequest(setup.lens, far, *what, centre, optics.clip, sensor, depths=depths)
+    return View(None, ImageRequest(setup.lens, far, *what, centre, optics.clip, sensor, depths=depths))
 
 
 def depth_choice(state: State) -> DepthChoice:

@@ -7,7 +7,7 @@ from p2sf.lensfile.library import lenses_folder, shipped_lenses
 from p2sf.lensfile.report import TITLES, ImportReport
 from p2sf.messages import Message
 from p2sf_explorer.compute.lens_files import import_of, is_file
-from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.live import Live, View
 
 REFUSED = Message("refused")
 
@@ -21,7 +21,7 @@ class ImportView:
     groups: tuple[tuple[Message, tuple[Message, ...]], ...]
 
 
-def report(live: Live) -> ImportView:
+def report(live: Live) -> View[ImportView]:
     """Return the import report of the state's lens."""
     state = live.state
     path = (
@@ -32,15 +32,15 @@ def report(live: Live) -> ImportView:
     heading = live.setup.lens.title or live.setup.lens.name
     if not is_file(path):
         away = Message("{path} is not on this computer; the saved state carries the lens itself", path=path)
-        return ImportView(heading, away, ())
+        return View(ImportView(heading, away, ()))
     try:
         as_filed = describe_report(heading, import_of(path).report)
     except P2SFError as error:
         as_filed = describe_refusal(heading, path, error.message)
     if state.optics.lens_text is None:
-        return as_filed
+        return View(as_filed)
     edited = Message("{source}; {note}", source=as_filed.source, note=Message("edited since"))
-    return replace(as_filed, source=edited)
+    return View(replace(as_filed, source=edited))
 
 
 def describe_report(heading: str, read: ImportReport) -> ImportView:

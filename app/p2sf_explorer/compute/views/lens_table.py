@@ -10,7 +10,7 @@ from p2sf.lens.properties import short_words_of, words_of
 from p2sf.messages import Message
 from p2sf_explorer.compute.editing import cell_text
 from p2sf_explorer.compute.glass_outlines import clear_rims, still
-from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.setup import prescription
 from p2sf_explorer.state.build_errors import BuildErrors
 from p2sf_explorer.state.built import Adjustment, Piece, adjustments, pieces
@@ -41,7 +41,7 @@ class Rows:
     beside: tuple[dict[str, CellNote], ...] = ()
 
 
-def rows(live: Live) -> Rows:
+def rows(live: Live) -> View[Rows]:
     """Return what the table shows: the lens before the focus and f-number controls change it."""
     lens = prescription(live.state)
     texts = tuple(tuple(cell_text(surface, column) for column in COLUMNS) for surface in lens.surfaces)
@@ -49,7 +49,7 @@ def rows(live: Live) -> Rows:
         {column: CellNote(short_words_of(surface, column), words_of(surface, column)) for column in COLUMNS}
         for surface in lens.surfaces
     )
-    return Rows(lens, texts, lens.stop_surface or 0, live.state.optics.lens_text is not None, beside)
+    return View(Rows(lens, texts, lens.stop_surface or 0, live.state.optics.lens_text is not None, beside))
 
 
 @dataclass(frozen=True)
@@ -63,9 +63,9 @@ class Misalignment:
     show_field_x: bool
 
 
-def misalignment(live: Live) -> Misalignment:
+def misalignment(live: Live) -> View[Misalignment]:
     """Return what the panel of sliders shows."""
-    return misalignment_of(live.state)
+    return View(misalignment_of(live.state))
 
 
 def misalignment_of(state: State) -> Misalignment:

@@ -28,7 +28,7 @@ from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
 from p2sf.messages import Message, Number
 from p2sf.paraxial.pupils import f_number
 from p2sf_explorer.compute.lens_files import stamp
-from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.compute.views.first_order import Row
 from p2sf_explorer.state.build_errors import with_error, without_piece
@@ -98,11 +98,13 @@ class PointPictures:
         return float(np.abs(self.difference).max())
 
 
-def question(live: Live) -> MeasurementRequest:
+def question(live: Live) -> View[None]:
     """Return the measurement of the state's picture; where the window's source lies in the field does not matter."""
     view, source = live.state.measured, live.setup.source
     known = view.picture, view.pixel_um, view.beside, view.encoding
-    return MeasurementRequest(*known, design_of(live), source.depth_mm, source.wavelength_um, live.state.optics.clip)
+    return View(
+        None, MeasurementRequest(*known, design_of(live), source.depth_mm, source.wavelength_um, live.state.optics.clip)
+    )
 
 
 def design_of(live: Live) -> Lens:

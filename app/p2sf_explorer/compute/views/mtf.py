@@ -8,7 +8,7 @@ import numpy as np
 from p2sf.messages import Message
 from p2sf.metrics.measures import mtf_of
 from p2sf.threads import never
-from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.measured import MeasureRequest, measure_request, measured_parts, mtf_is_live
 
 INTERVALS = 512
@@ -31,10 +31,10 @@ class Contrast:
     method: Message
 
 
-def contrast(live: Live) -> Contrast | MeasureRequest:
+def contrast(live: Live) -> View[Contrast | None]:
     """Return the MTF up to the cut-off, or the request for it where it is too slow for a frame."""
     request = measure_request(live)
-    return contrast_of(request) if mtf_is_live(live, request) else request
+    return View(contrast_of(request)) if mtf_is_live(live, request) else View(None, request)
 
 
 def contrast_of(request: MeasureRequest, stopped: Callable[[], bool] = never) -> Contrast:

@@ -7,7 +7,7 @@ from p2sf.errors import P2SFError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.metrics.performance import USUAL_PER_MM, PerformanceTable, growing_table
-from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.matrix.overlays import compared_fields
 from p2sf_explorer.compute.sampled import optics
 from p2sf_explorer.compute.setup import paraxial_setup
@@ -28,9 +28,9 @@ class PerformanceRequest:
     clip: bool
 
 
-def performance(live: Live) -> PerformanceRequest:
+def performance(live: Live) -> View[None]:
     """Return what the table of the present setup shows, which does not depend on the present field."""
-    return performance_request(live.state)
+    return View(None, performance_request(live.state))
 
 
 def performance_request(state: State) -> PerformanceRequest:

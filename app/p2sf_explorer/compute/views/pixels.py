@@ -6,7 +6,7 @@ import numpy as np
 
 from p2sf.metrics.perfect import airy_curves
 from p2sf.psf.result import Psf
-from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.live import Live, View
 
 RADII = 2048  # of the table that the pattern is drawn from: to 1e-5 of the peak
 MOST_PIXELS = 201  # across the window; finer pixels are not told apart on screen
@@ -28,14 +28,14 @@ class SampledLight:
     perfect_share: float
 
 
-def beside(live: Live) -> SampledLight:
+def beside(live: Live) -> View[SampledLight]:
     """Return the three pictures of the present point."""
     psf, pixel = live.psf, live.state.display.pixel_um
     perfect = airy_picture(psf, live.airy_radius_um)
     shares = 1.0 if psf.energy is None else min(1.0, float(psf.energy))
     real = psf.values / (float(psf.values.max()) or 1.0)
     middle = airy_share(live.airy_radius_um, pixel)
-    return SampledLight(real, perfect, psf.pixel_um, shares * over_pixels(psf, pixel), pixel, middle)
+    return View(SampledLight(real, perfect, psf.pixel_um, shares * over_pixels(psf, pixel), pixel, middle))
 
 
 def airy_picture(psf: Psf, radius_um: float) -> np.ndarray:

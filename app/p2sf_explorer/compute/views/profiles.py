@@ -16,7 +16,7 @@ from p2sf.psf.result import Psf
 from p2sf.psf.seidel_stack import as_fit
 from p2sf.psf.sums.plane_waves import counts_for
 from p2sf.raytrace.seen_mask import mask_seen
-from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.measured import (
     MeasureRequest,
     energy_at,
@@ -56,7 +56,7 @@ class ProfileCurves:
     rough: bool = False
 
 
-def profiles(live: Live) -> ProfileCurves:
+def profiles(live: Live) -> View[ProfileCurves]:
     """Return sections finer than the picture's samples; summed at the points themselves once the sliders rest."""
     psf = live.psf
     half = (psf.values.shape[-1] // 2) * psf.pixel_um
@@ -68,15 +68,18 @@ def profiles(live: Live) -> ProfileCurves:
     empty = ProfileCurves(position, none, none, airy, none, none if masked else perfect, perfect, highest=highest)
     curves = with_sections(empty, between_samples(psf, position))
     if live.quality == "preview":  # some 10 ms, of a frame's 16
-        return replace(curves, method=LATER)
+        return View(replace(curves, method=LATER))
     request = measure_request(live)
     # No sum describes the density of rays, nor what rims clip.
     curves = replace(curves, rough=psf.method != "geometric" and not live.state.optics.clip)
     curves = curves if takes_long(live) else with_fine_sections(curves, request)
     try:
-        return with_energy(curves, request) if energy_is_live(live, request) else replace(curves, pending=request)
+        if energy_is_live(live, request):
+            return View(with_energy(curves, request))
     except P2SFError as error:  # the sections are there all the same
-        return replace(curves, method=error.message)
+        return View(replace(curves, method=error.message))
+    curves = replace(curves, pending=request)
+    return View(curves, curves)
 
 
 def with_sections(curves: ProfileCurves, lines: tuple[np.ndarray, np.ndarray]) -> ProfileCurves:

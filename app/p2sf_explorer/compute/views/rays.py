@@ -12,7 +12,7 @@ from p2sf.raytrace.aiming import Sources
 from p2sf.raytrace.fans import Fan, opd_fan, ray_fan
 from p2sf.raytrace.spot import DRAWN_RINGS, Spot, spot
 from p2sf_explorer.compute.layout import Layout
-from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.views.first_order import Row
 from p2sf_explorer.state.scales import significant
 
@@ -22,28 +22,28 @@ ARRIVE = "That arrive, of those traced."
 WITHIN_RIMS = "Share of the traced rays that pass every rim and arrive."
 
 
-def lens_drawn(live: Live) -> Layout:
+def lens_drawn(live: Live) -> View[Layout]:
     """Return the drawing of lens and rays; P2SFError with a free pupil, in whose picture the lens has no part."""
     if live.state.what_if.free_pupil:
         raise P2SFError(
             'the lens is set aside, and only the six sliders make the picture; switch "Free pupil" off to see the lens'
         )
-    return live.layout
+    return View(live.layout)
 
 
-def spots(live: Live) -> Spot:
+def spots(live: Live) -> View[Spot]:
     """Return where hexapolar rays meet the sensor, µm from the chief ray; fewer rays while a slider moves."""
-    return spot_of(live.setup.lens, live.setup.source, live.state.optics.clip, live.quality)
+    return View(spot_of(live.setup.lens, live.setup.source, live.state.optics.clip, live.quality))
 
 
-def ray_errors(live: Live) -> Fan:
+def ray_errors(live: Live) -> View[Fan]:
     """Return transverse ray errors along the two axes of the pupil, µm."""
-    return ray_fan(live.setup.lens, live.setup.source, FAN_RAYS, live.state.optics.clip)
+    return View(ray_fan(live.setup.lens, live.setup.source, FAN_RAYS, live.state.optics.clip))
 
 
-def path_errors(live: Live) -> Fan:
+def path_errors(live: Live) -> View[Fan]:
     """Return optical path differences along the two axes of the pupil, waves."""
-    return opd_fan(live.setup.lens, live.setup.source, FAN_RAYS, live.state.optics.clip)
+    return View(opd_fan(live.setup.lens, live.setup.source, FAN_RAYS, live.state.optics.clip))
 
 
 def spot_of(lens: Lens, source: Source | Sources, clip: bool, quality: str) -> Spot:

@@ -6,7 +6,7 @@ import numpy as np
 
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
 from p2sf.paraxial.seidel import Coefficients, check_seidel, chromatic_sums, seidel_sums
-from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.live import Live, View
 
 
 @dataclass(frozen=True)
@@ -23,14 +23,14 @@ class PerSurface:
     colours_nm: tuple[float, float]
 
 
-def six(live: Live) -> Coefficients:
+def six(live: Live) -> View[Coefficients]:
     """Return the coefficients of the picture; GeometryError for a lens that has none, unless its pupil is free."""
     if not live.state.what_if.free_pupil:
         check_seidel(live.setup.lens)
-    return live.setup.coefficients
+    return View(live.setup.coefficients)
 
 
-def per_surface(live: Live) -> PerSurface:
+def per_surface(live: Live) -> View[PerSurface]:
     """Return the coefficients and the chromatic sums split over the surfaces (handbook 3.2)."""
     setup = live.setup
     slope, colours = setup.source.field_slope, setup.lens.wavelengths_nm
@@ -49,4 +49,4 @@ def per_surface(live: Live) -> PerSurface:
         "c2": chromatic.lateral,
     }
     waved = {name: column * waves for name, column in split.items()}
-    return PerSurface(waved, int(setup.stop.surface), (shortest, longest))
+    return View(PerSurface(waved, int(setup.stop.surface), (shortest, longest)))

@@ -5,14 +5,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from p2sf.errors import GeometryError, P2SFError
-from p2sf.messages import Message
+from p2sf.errors import P2SFError
 from p2sf.metrics.perfect import airy_radius_um
 from p2sf.psf.geometric import over_unaberrated
 from p2sf.raytrace.field_curves import real_foci, seidel_foci
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf_explorer.compute.autofocus import best_shift_um
-from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.method import WINDOWS
 from p2sf_explorer.compute.sampled import in_window, optics
 from p2sf_explorer.compute.setup import ParaxialSetup, everywhere_by_coefficients, paraxial_setup
@@ -53,23 +52,19 @@ class Focused:
     best: float
 
 
-def strip(live: Live) -> Strip | Message:
+def strip(live: Live) -> View[None]:
     """Return what to show for the present lens and source. The strip does not depend on the sensor shift.
 
-    Where moving the sensor does not focus, and every picture would be the same, the reason stands in its place.
+    Raises GeometryError where moving the sensor does not focus, and every picture would be the same.
     """
-    try:
-        check_focusable(live.state)
-    except GeometryError as error:
-        return error.message
+    check_focusable(live.state)
     state = change(optics(live.state), sensor_shift_um=0.0)
     setup = paraxial_setup(state)
     low, high, half = shift_range(setup)
     shifts = tuple(np.linspace(low, high, COUNT[live.quality]).tolist())
     pixels = PIXELS[live.quality]
-    return Strip(
-        state, shifts, (pixels, nice(2 * half, WINDOWS) / pixels), everywhere_by_coefficients(state, live.setup)
-    )
+    window = pixels, nice(2 * half, WINDOWS) / pixels
+    return View(None, Strip(state, shifts, window, everywhere_by_coefficients(state, live.setup)))
 
 
 def shift_range(setup: ParaxialSetup) -> tuple[float, float, float]:

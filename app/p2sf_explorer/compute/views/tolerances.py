@@ -18,7 +18,7 @@ from p2sf.tolerance.differentials import Differentials, differentials, usual_sou
 from p2sf.tolerance.errors_of_build import MOVES, Kind, Tolerance, usual_tolerances
 from p2sf.tolerance.files import COMPENSATING_MM, with_compensators
 from p2sf.tolerance.single import form_errors, sensitivities
-from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.state.build_errors import BuildErrors, order_errors
 from p2sf_explorer.state.pinning import pin, unpin
@@ -90,12 +90,14 @@ class Figures:
     worst: tuple[tuple[int, float], ...]
 
 
-def question(live: Live) -> ToleranceQuestion:
+def question(live: Live) -> View[None]:
     """Return what is asked of the lens on screen as designed: without the errors of a build that is opened."""
     state, setup = change(unpin(live.state), errors=()), live.setup
     if live.state.optics.errors:
         setup = paraxial_setup(state)
-    return ToleranceQuestion(request_of(setup.lens, setup.source, state.tolerances), state.tolerances, state)
+    return View(
+        None, ToleranceQuestion(request_of(setup.lens, setup.source, state.tolerances), state.tolerances, state)
+    )
 
 
 def errors_of(found: ToleranceResult, number: int) -> BuildErrors:

@@ -2,9 +2,9 @@
 
 from p2sf.paraxial.ybar import YBar
 from p2sf.paraxial.ybar import ybar as ybar_of
-from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.live import Live, View
 
 
-def ybar(live: Live) -> YBar:
+def ybar(live: Live) -> View[YBar]:
     """Return the diagram of the setup."""
-    return ybar_of(live.setup.lens, live.setup.source, live.setup.stop, live.setup.rays)
+    return View(ybar_of(live.setup.lens, live.setup.source, live.setup.stop, live.setup.rays))

@@ -11,7 +11,7 @@ from p2sf.pupil.domain import ClearNodes
 from p2sf.pupil.zernike_terms import ORDERS, ZernikeOrder, zernike_terms
 from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.raytrace.zernike_fit import COUNTS, USUAL_TERMS, ZernikeFit, decompose, open_nodes, path_waves, pupil_opd
-from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.views.first_order import NONE, Row
 from p2sf_explorer.state.scales import with_sign
 
@@ -24,7 +24,7 @@ class ZernikeView:
     kind: str
 
 
-def zernike(live: Live) -> ZernikeView:
+def zernike(live: Live) -> View[ZernikeView]:
     """Return the terms of the wavefront over the part of the pupil that passes light (handbook 3.4)."""
     exact = live.pupil.kind == "exact rays"
     if live.setup.lens.mask.clear:
@@ -33,7 +33,7 @@ def zernike(live: Live) -> ZernikeView:
     else:
         nodes, waves = _behind_mask(live, exact)
     fits = {order: decompose(nodes, waves, order, zernike_terms(order, USUAL_TERMS)) for order in ORDERS}
-    return ZernikeView(fits, live.pupil.kind)
+    return View(ZernikeView(fits, live.pupil.kind))
 
 
 def _samples(live: Live, exact: bool) -> WavefrontSamples:

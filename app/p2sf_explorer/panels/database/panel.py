@@ -94,7 +94,7 @@ class DatabasePanel:
 
     def show(self, live: Live) -> None:
         """Mark the present point, and ask the worker when more than the point has changed."""
-        asked: DatabaseRequest = live.views["database"]
+        asked: DatabaseRequest = live.views["database"].question
         state = live.state
         if state.choices != self._choices:
             self._choices = state.choices

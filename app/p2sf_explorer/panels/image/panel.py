@@ -148,7 +148,7 @@ class ImagePanel:
     def show(self, live: Live) -> None:
         """Follow the state; ask the worker for a picture when anything it depends on has changed."""
         self._live = live
-        asked = on_stage(live.views["image"], self.split_view.room())
+        asked = on_stage(live.views["image"].question, self.split_view.room())
         state = live.state
         self._settled = live.quality == "settled"
         self._show_choices(state)

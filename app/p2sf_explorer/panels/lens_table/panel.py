@@ -157,7 +157,7 @@ class LensTablePanel:
 
     def show(self, live: Live) -> None:
         """Follow the lens."""
-        rows: Rows = live.views["lens"]
+        rows: Rows = live.views["lens"].found
         self.model.show_rows(rows)
         self.buttons["_revert"].setEnabled(rows.edited)
         self._lens = rows.lens

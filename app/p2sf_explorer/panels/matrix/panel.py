@@ -131,16 +131,11 @@ class MatrixPanel:
     def show(self, live: Live) -> None:
         """Paint what fits a frame; have the rest made in the background once it rests."""
         self._live = live
-        view: Matrix = live.views["matrix"]
+        view: Matrix = live.views["matrix"].found
+        self.late.follow(live.views["matrix"])
         self._show_choices(live, view.request)
         self.grid.build(KINDS[view.request.what], (len(view.request.rows), len(view.request.columns)))
         self._filled = {chart: shown for chart, shown in self._filled.items() if chart in self.grid.charts}
-        if view.settled or (view.tiles and live.quality == "preview"):
-            self.late.forget()
-            if view.waiting:
-                self.late.ask_when_held(view.request)
-        else:
-            self.late.ask(view.request)
         if self.settled and self.settled[0] == view.request:
             self._paint(*self.settled)
         elif view.tiles:
@@ -163,7 +158,7 @@ class MatrixPanel:
 
     def _take(self, request: MatrixRequest, tiles: Tiles) -> str:
         """Show what the worker has made so far."""
-        if self._live and request == self._live.views["matrix"].request:
+        if self._live and request == self._live.views["matrix"].found.request:
             if all(tile.settled for row in tiles for tile in row):
                 self.settled = request, tiles
             self._paint(request, tiles)

@@ -167,7 +167,7 @@ class TolerancesPanel:
 
     def show(self, live: Live) -> None:
         """Follow settings and lens; the builds are drawn anew where these have changed and nothing is dragged."""
-        asked: ToleranceQuestion = live.views["tolerances"]
+        asked: ToleranceQuestion = live.views["tolerances"].question
         self._asked, self._state = asked, live.sides[0] if live.sides else live.state
         self._show_settings(asked.view, asked.request.lens)
         if asked.request != self.late.asked and live.quality == "settled":
