@@ -13,8 +13,9 @@ from p2sf.lens.placement import Motion
 from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import needed_radii
 from p2sf.pupil.mask import CLEAR
-from p2sf.raytrace.pencil import pupil_rays
-from p2sf_explorer.compute.meridional import path
+from p2sf.raytrace.aiming import pupil_rays
+from p2sf.raytrace.surface import Status
+from p2sf.raytrace.trace import trace
 
 PROFILE_POINTS = 33
 GLASS_INDEX = 1.0001  # less than this is air
@@ -183,13 +184,13 @@ def widest_exit(lens: Lens) -> tuple[float, float]:
     """Return height and slope behind the last surface of the file's widest field's chief ray; zeros where it fails."""
     slope = float(np.tan(np.deg2rad(lens.widest_field_deg)))
     rays = pupil_rays(lens, Source(np.inf, slope, lens.reference_wavelength_um), np.zeros(1), np.zeros(1))
-    start, direction = (a.reshape(-1, 3)[0, :0:-1].tolist() for a in (rays.origins, rays.directions))
-    wave = lens.reference_wavelength_um
-    z, y, passed = path(lens, indices(lens, wave).tolist(), wave, start, direction)
-    if not passed:
+    found = trace(lens, rays.origins, rays.directions, lens.reference_wavelength_um)
+    if found.status.item() != Status.PASSED:
         return 0.0, 0.0
-    turned = (y[-1] - y[-2]) / (z[-1] - z[-2])
-    return y[-2] - turned * (z[-2] - vertices(lens)[-2]), turned
+    _, y, z = found.points[-2].reshape(3).tolist()
+    _, along_y, along_z = found.cosines.reshape(3).tolist()
+    turned = along_y / along_z
+    return y - turned * (z - vertices(lens)[-2]), turned
 
 
 def vertices(lens: Lens) -> list[float]:

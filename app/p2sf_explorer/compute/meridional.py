@@ -1,6 +1,7 @@
 """One exact ray in the meridional plane, surface by surface in plain numbers. No Qt in here.
 
-The layout draws five rays; arrays of five cost as much as arrays of five hundred, plain numbers a fifth of that.
+The layout draws five rays in every frame, and arrays of five cost as much as arrays of five hundred. Those of a Double
+Gauss, aimed and traced, take 0.36 ms; by `p2sf.raytrace.trace` 1.05, and a frame of 10.9 ms takes 11.8.
 """
 
 from collections.abc import Callable, Sequence

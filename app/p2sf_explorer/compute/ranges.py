@@ -6,8 +6,7 @@ from math import inf, isfinite
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM, angle_from_axis, slope_from_degrees
-from p2sf.glass.media import Medium
-from p2sf.lens.lens import Lens, indices
+from p2sf.lens.lens import Lens, indices, lens_range_um
 from p2sf.paraxial.first_order import cardinal_points
 from p2sf.paraxial.lens_checks import AIR_LIKE
 from p2sf.paraxial.pupils import f_number, paraxial_rays
@@ -63,11 +62,8 @@ def file_focus(lens: Lens) -> float:
 @lru_cache(maxsize=32)
 def wavelength_range(lens: Lens) -> tuple[float, float]:
     """Return the visible wavelengths every glass of the lens has data for, nm."""
-    low, high = VISIBLE_NM
-    for medium in lens.media:
-        limits = getattr(medium, "range_um", None) or _table_range(medium)
-        if limits:
-            low, high = max(low, NM_PER_UM * limits[0]), min(high, NM_PER_UM * limits[1])
+    low, high = lens_range_um(lens) or (0.0, inf)
+    low, high = max(VISIBLE_NM[0], NM_PER_UM * low), min(VISIBLE_NM[1], NM_PER_UM * high)
     return (low, high) if low < high else VISIBLE_NM
 
 
@@ -93,11 +89,6 @@ def fastest_f_number(lens: Lens) -> float:
         edge = (lens.gaps[k] + behind - before) * lens.directions[k + 1]
         kept &= ~(edge <= 0)  # beyond its own edge a surface has no sag, and `lens_checks` warns
     return usual / float(opened[np.logical_and.accumulate(kept)].max(initial=1.0))
-
-
-def _table_range(medium: Medium) -> tuple[float, float] | None:
-    known = getattr(medium, "wavelengths_um", None)
-    return (known[0], known[-1]) if known else None
 
 
 def telling_field(lens: Lens, depth_mm: float) -> tuple[float, float]:
