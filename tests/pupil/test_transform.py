@@ -13,6 +13,7 @@ from p2sf.pupil.transform import (
     MOST_PRODUCTS,
     NUFFT_ERROR,
     matrix_dft,
+    newton_step,
     padded_fft,
     sum_plane_waves,
 )
@@ -138,3 +139,31 @@ def test_uneven_axes_are_summed_as_they_are():
     field = sum_plane_waves(amplitude + 0j, kx, ky, x, x, even=False)
     one = (amplitude * np.exp(2j * np.pi * (kx * x[3] + ky * x[20]))).sum()
     assert abs(field[20, 3] - one) < ROUND_OFF * np.abs(amplitude).sum()
+
+
+@pytest.mark.parametrize("place", [(0.05, -0.03), (0.4, 0.3)])
+def test_a_step_to_the_peak_is_by_the_slopes_and_bends_of_the_light(place):
+    """Newton's of |E|², and its gain −gᵀH⁻¹g/2, by differences; where |E|² is not concave, along its gradient."""
+    rng = np.random.default_rng(4)
+    amplitude, f = np.exp(1j * rng.normal(0, 0.3, 60)), rng.uniform(-1, 1, (2, 60))
+
+    def light(x, y):
+        return abs((amplitude * np.exp(2j * np.pi * (f[0] * x + f[1] * y))).sum()) ** 2
+
+    def sums(x, y):
+        waves = amplitude * np.exp(2j * np.pi * (f[0] * x + f[1] * y))
+        return np.array([(waves * part).sum() for part in (1, *f, f[0] ** 2, f[0] * f[1], f[1] ** 2)])
+
+    d, at, e = 1e-4, np.array(place), np.eye(2)
+    slope = np.array([(light(*(at + d * k)) - light(*(at - d * k))) / (2 * d) for k in e])
+    bend = np.array(
+        [[sum(s * t * light(*(at + d * (s * i + t * k))) for s in (1, -1) for t in (1, -1)) for i in e] for k in e]
+    )
+    newton = -np.linalg.solve(bend / (4 * d * d), slope)
+    value, step, gain = newton_step(sums(*at))
+    assert value == pytest.approx(light(*at), rel=1e-12)
+    if np.linalg.eigvalsh(bend).max() < 0:
+        assert step == pytest.approx(newton, rel=1e-4) and gain == pytest.approx(slope @ newton / 2, rel=1e-4)
+    else:
+        assert step @ slope == pytest.approx(np.hypot(*step) * np.hypot(*slope), rel=1e-6)
+        assert light(*(at + step)) > value

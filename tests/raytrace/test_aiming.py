@@ -283,3 +283,16 @@ def test_weights_are_ratios_of_areas_however_strongly_the_map_bends():
         # The mean over a disc of radius r is the middle's plus r²/8 of the Laplacian, taken from weights on its rim.
         mean = float(centre.launch.item() + rays.launch.mean()) / 2
         assert share == pytest.approx(mean, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("name", "angle"), [("cooke_triplet", 20.0), ("wide_angle_35", 25.0), ("double_gauss_28", 14.0)]
+)
+def test_the_guess_of_some_rays_is_a_step_from_where_they_enter(name, angle):
+    """By a map of a few rays: what Newton's method finds is a thousandth of what first order misses away, or less."""
+    lens, (xi, eta) = find_lens(name), disc(100)
+    source = Source(inf, np.tan(np.deg2rad(angle)), 0.5875618)
+    enter, found = entrance(lens, source), pupil_rays(lens, source, xi, eta)
+    guess, first = aiming._guess(lens, source, enter, None, xi, eta), (enter.radius * xi, enter.radius * eta)
+    missed, apart = (np.hypot(x - found.x, y - found.y).max() for x, y in (guess, first))
+    assert aiming.FEW <= xi.size < aiming.MANY and missed < 1e-3 * apart

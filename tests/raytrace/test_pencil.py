@@ -23,7 +23,9 @@ from p2sf.raytrace.pencil import (
     pupil_rays,
     trace,
 )
+from p2sf.raytrace.ray_field import steepness
 from p2sf.raytrace.trace import status_message
+from tests.support.rays.made_rays import made_rays
 from tests.support.rays.pencils import GLASS, disc, double_gauss, one_surface
 from tests.support.reference import LENSES, case, huygens_rows, prescription_lens
 
@@ -203,3 +205,12 @@ def test_ray_errors_are_the_slope_of_the_opd():
     # Real sines differ from paraxial slopes by (1.5·NA)²: below 1 per mille at f/20.
     assert np.allclose(rays.tangential[2:-2], expected[2:-2], rtol=0, atol=1e-3 * np.max(np.abs(expected)))
     assert np.allclose(rays.tangential, rays.sagittal)
+
+
+def test_the_steepest_slopes_of_a_phase_are_those_of_its_formula():
+    """W = a(ξ + η)², rays at −∂W/∂f: ρ∂W/∂ρ = 2a(ξ + η)² is 4a on the rim, ∂W/∂θ = 2a(ξ² − η²) at most 2a."""
+    rho, theta = np.meshgrid(np.linspace(0.1, 1, 10), np.arange(16) * np.pi / 8)
+    xi, eta, a, spread = (rho * np.sin(theta)).ravel(), (rho * np.cos(theta)).ravel(), 3.0, 0.25
+    landed = -2 * a * (xi + eta) / spread
+    found = steepness(made_rays(a * (xi + eta) ** 2, spread * xi, spread * eta, landed, landed), xi, eta)
+    assert (found.radial, found.angular, found.spread) == pytest.approx((4 * a, 2 * a, spread), rel=1e-9)

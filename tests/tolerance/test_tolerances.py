@@ -23,6 +23,7 @@ from p2sf.tolerance.criteria import harms, share_within
 from p2sf.tolerance.differentials import NODES, differentials, usual_sources
 from p2sf.tolerance.errors_of_build import GRADES, IRREGULAR, Tolerance, build, usual_tolerances
 from p2sf.tolerance.single import sensitivities
+from p2sf.tolerance.strehl import strehl_ratios
 from tests.long.tolerances import agreement, gauss
 from tests.support.lenses.simple_lenses import in_the_stop
 from tests.support.tiers import in_tiers
@@ -462,3 +463,14 @@ def test_what_an_error_harms_is_by_the_worse_of_its_signs():
     alone = Builds(np.zeros((5, 2)), strehl, strehl, *np.zeros((2, 5, 1, 2)))
     assert harms(alone, "strehl") == pytest.approx([0.3, 0.2]) and harms(alone, "strehl", (0,))[0] == 0
     assert harms(alone, "rms_waves") == pytest.approx([0.1, -0.1])
+
+
+@pytest.mark.parametrize("away", [(0.02, 0.0), (0.2, -0.15), (-0.1, 0.3)])
+def test_a_tilt_moves_the_peak_and_takes_nothing_from_it(away):
+    """Periods of the highest frequency, 0.36 of them at most: farther, a search on a grid would start."""
+    x, y = np.meshgrid(*2 * [np.linspace(-1, 1, 41)])
+    x, y = x[x**2 + y**2 <= 1], y[x**2 + y**2 <= 1]
+    tilt, weight = away[0] * x + away[1] * y, np.full(x.size, 1 / x.size)
+    for waves in (tilt, tilt + 0.05 * (x**2 + y**2)):
+        still = abs((weight * np.exp(2j * np.pi * (waves - tilt))).sum()) ** 2
+        assert strehl_ratios(waves[None], weight, np.stack([x, y])) == pytest.approx([still], abs=1e-5)

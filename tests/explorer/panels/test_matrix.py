@@ -12,7 +12,7 @@ from p2sf.psf.methods import render
 from p2sf_explorer.compute.framing import light_rings
 from p2sf_explorer.compute.matrix.pictures import radius_figure
 from p2sf_explorer.compute.matrix.points import nearest
-from p2sf_explorer.panels.matrix.tile_charts import LightChart, arrange
+from p2sf_explorer.panels.matrix.tile_charts import LightChart, LinesChart, TileGrid, arrange
 from p2sf_explorer.state.link import link, state_of_link
 from p2sf_explorer.state.state import change, new_state
 from p2sf_explorer.state.state_files import state_from_json, state_to_json
@@ -262,3 +262,15 @@ def test_radii_have_the_digits_of_the_profiles(pixel_um):
     psf = render(find_lens("double_gauss_28"), Source(field_deg=7), "fitted", pixels=256, pixel_um=pixel_um)
     rings = light_rings(psf.values, psf.pixel_um)
     assert str(radius_figure(psf, rings).values["radius"]) == f"{rings.radius_of(0.8):.3g}"
+
+
+@pytest.mark.parametrize("size", [(1200, 500), (500, 900)])
+def test_charts_of_curves_fill_the_room_there_is(qtbot, size):
+    """Nine of them: the last ends where the room does, to the pixel that rounding leaves."""
+    grid = TileGrid()
+    qtbot.addWidget(grid)
+    grid.resize(*size)
+    grid.build(LinesChart, (3, 3))
+    first, last = grid.charts[0].geometry(), grid.charts[-1].geometry()
+    assert (first.x(), first.y()) == (0, 0)
+    assert size[0] - 1 <= last.x() + last.width() <= size[0] and size[1] - 1 <= last.y() + last.height() <= size[1]
