@@ -316,3 +316,10 @@ def test_every_list_of_methods_names_those_there_are():
     described = {method.name for method in methods.METHODS if method.pupil}
     assert set(PUPILS) == described and set(get_args(api.PupilMethod)) == {methods.AUTO, *described}
     assert {method.name for method in methods.METHODS if method.reason} == described  # those that `choose` takes
+
+
+def test_the_reference_adds_to_what_plane_waves_miss_that_its_sum_settles_to_a_ten_thousandth():
+    """1e-4 of the picture is 1e-8 of R²."""
+    choice = choose(with_f_number(find_lens("petzval"), 2.8), Source(field_deg=14.0), 0.99997, clip=True)
+    assert choice.method == "huygens"
+    assert choice.predicted_error - choice.plane_wave_error == pytest.approx(1e-8, rel=1e-6)

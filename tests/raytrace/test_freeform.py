@@ -60,6 +60,15 @@ def test_the_sag_is_that_of_its_definition(shape):
     assert shape.sag_and_gradient(x, y)[0] == pytest.approx(known, abs=1e-16 * 50)
 
 
+@pytest.mark.parametrize("count", range(1, 7))
+def test_the_first_terms_are_powers_of_x_before_those_of_y(count):
+    """Of places over the normalisation radius, by degrees: x, y, x², xy, y², x³."""
+    (x, y), each = places(), np.arange(1, count + 1) * 1e-3
+    u, v = x / 2, y / 2
+    powers = np.stack([u, v, u * u, u * v, v * v, u**3])[:count]
+    assert XYPolynomial(tuple(each), 2.0).sag_and_gradient(x, y)[0] == pytest.approx(each @ powers, abs=1e-15)
+
+
 def test_the_gradient_is_the_derivative_of_the_sag(shape):
     """Central differences: the third derivative, below 0.01 per mm², adds 2e-13; rounding 1e-11."""
     (x, y), step = places(), 1e-5

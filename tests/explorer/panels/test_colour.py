@@ -4,6 +4,10 @@ import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 
+from p2sf.lens.lens import with_f_number
+from p2sf.lens.source import Source
+from p2sf.lensfile.library import find_lens
+from p2sf.psf.methods import render
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.compute.views import colour
@@ -36,6 +40,15 @@ def test_blue_lands_above_red_where_the_chief_rays_say_so():
     assert own[0] > own[1] and above > 0.4 * (own[0] - own[1]), (
         "the display's curve lifts the faint halo, not the order"
     )
+
+
+@pytest.mark.parametrize("nm", [450.0, 640.0])
+def test_light_of_one_line_is_the_psf_of_its_wavelength(nm):
+    question, found = asked(field_deg=0.0, f_number=8.0, spectrum=f"lines:{nm:g}")
+    lens = with_f_number(find_lens("double_gauss_28"), 8.0)
+    one = render(lens, Source(wavelength_nm=nm), "seidel", *question.window).values
+    light = found.psf.xyz[..., 1] / found.psf.xyz[..., 1].sum()
+    assert np.linalg.norm(light - one) < 0.01 * np.linalg.norm(one)
 
 
 def test_on_the_axis_the_picture_is_round_and_has_no_lateral_colour():
