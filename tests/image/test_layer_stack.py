@@ -85,6 +85,17 @@ def test_light_is_linear_and_what_no_layer_covers_is_dark():
     assert covered[12:-12, 12:-12].mean() == pytest.approx(alpha[12:-12, 12:-12].mean(), abs=0.02)
 
 
+def test_a_black_surround_is_an_empty_margin_of_every_layer():
+    """A near layer that ends at the edge of the picture hides nothing of what shines past it."""
+    made, black, margin = scene_of(5000.0), replace(BLUR, surround="black"), ((0, 0), (10, 10), (10, 10), (0, 0))
+    stack = np.stack([rgba(0.3, np.arange(41) < 20), rgba(texture(2), 1.0)])
+    sensor = replace(made.scene.sensor, rows=61, columns=61)
+    wide = replace(made, scene=replace(made.scene, sensor=sensor))
+    depths = np.array([4000.0, 8000.0])
+    found, around = form_image(made, stack, depths, black), form_image(wide, np.pad(stack, margin), depths, black)
+    np.testing.assert_allclose(found, around[10:-10, 10:-10], atol=2e-5)
+
+
 def test_the_order_in_which_layers_are_given_does_not_matter_but_at_one_depth():
     made = scene_of()
     layers = np.stack([rgba(texture(1), 0.3), rgba(texture(2), 1.0)])
