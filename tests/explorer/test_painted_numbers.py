@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import replace
+from itertools import product
 from math import inf
 
 import numpy as np
@@ -178,17 +179,21 @@ def test_a_sweep_turns_without_a_jump(key):
     assert parts[[0, 200, 400, 600]] == pytest.approx([0, 1, 0, 1])
 
 
-@pytest.mark.parametrize("depth_mm", [inf, 5000.0, 60.0])
-def test_rays_in_space_start_at_a_near_object_and_before_the_lens_for_a_far_one(depth_mm):
-    """All from one point of a near object; from 45 % of the drawing's length before the lens where that is nearer."""
-    answer = live(change(FIRST, depth_mm=depth_mm, field_deg=5.0, f_number=8.0, focus_mm=2000.0), "preview")
+@pytest.mark.parametrize(("name", "depth_mm"), [*product(["double_gauss_28"], [inf, 5000.0, 60.0]), ("maksutov", inf)])
+def test_rays_in_space_start_at_a_near_object_and_before_the_lens_for_a_far_one(name, depth_mm):
+    """All from one point of a near object; from 45 % of the drawing's length before the lens where that is nearer.
+
+    The rim of the telescope's concave front stands before its vertex, and there the drawing begins.
+    """
+    gauss = {"field_deg": 5.0, "f_number": 8.0, "focus_mm": 2000.0} if name == "double_gauss_28" else {"field_deg": 0.5}
+    answer = live(change(with_lens(FIRST, name), depth_mm=depth_mm, **gauss), "preview")
     shown, drawn = scene(answer).found, answer.layout.drawing
     starts, next_ = shown.rays[:, 0], shown.rays[:, 1]
     before = min(depth_mm, 0.45 * (drawn.right - drawn.left) - drawn.left)
     assert starts[:, 2] == pytest.approx(np.full(len(starts), -before)) and before > 0
     ways = (next_ - starts) / (next_ - starts)[:, 2:]
     if depth_mm == inf:
-        assert ways[:, 1] == pytest.approx(np.full(len(ways), np.tan(np.deg2rad(5.0))))
+        assert ways[:, 1] == pytest.approx(np.full(len(ways), np.tan(np.deg2rad(gauss["field_deg"]))))
     else:  # back to the object
         assert np.ptp((starts + ways * (before - depth_mm))[:, :2], axis=0) == pytest.approx([0, 0], abs=1e-6)
 

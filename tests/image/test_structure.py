@@ -169,3 +169,11 @@ def test_content_saves_depth_nodes_and_changes_the_picture_by_no_more_than_two_t
     (rote, every), (held, few) = (run(case, (160, 240), content) for content in (False, True))
     assert held.nodes < rote.nodes and held.kernels <= rote.kernels
     assert np.linalg.norm(few - every) < 2 * case.rtol * np.linalg.norm(every)
+
+
+def test_the_bound_of_a_change_of_illumination_is_reached_by_its_worst_kernel():
+    """1 + c·xy times two halves of light at opposite corners of a kernel: a change of c·half² everywhere."""
+    half, c = 3, 1e-4
+    row, column = np.indices((40, 50))
+    shade = 1 + c * row * column
+    assert change_of_shade(shade, half, 0.0) == pytest.approx(c * half**2, rel=1e-6)
