@@ -169,6 +169,16 @@ def test_the_sliders_of_distance_begin_a_fifth_of_the_focal_length_before_the_fr
         window.store.update(**{key: inf if key == "depth_mm" else None})
 
 
+@pytest.mark.parametrize("errors", [(), (("tilt_x", 1, 2, 0.05),)])
+def test_the_slider_of_the_field_begins_on_the_axis_unless_both_sides_differ(window, errors):
+    window.store.replace(change(with_lens(FIRST, "cooke_triplet"), errors=errors))
+    row = window.controls.rows["field_deg"]
+    row.slider.setValue(row.slider.maximum())
+    farthest = window.store.state.optics.field_deg
+    row.slider.setValue(0)
+    assert farthest > 5 and window.store.state.optics.field_deg == (-farthest if errors else 0.0)
+
+
 @pytest.mark.parametrize("key", ["field_deg", "f_number", "depth_mm", "added_wd"])
 def test_a_sweep_turns_without_a_jump(key):
     """Over three ways it never moves more in a frame than the way there does, and turns at both ends."""

@@ -3,7 +3,15 @@
 import numpy as np
 import pytest
 
-from p2sf_explorer.charts.reading import between, certain_digits, curves_at, format_number, split_label, with_unit
+from p2sf_explorer.charts.reading import (
+    Samples,
+    between,
+    certain_digits,
+    curves_at,
+    format_number,
+    split_label,
+    with_unit,
+)
 
 
 @pytest.mark.parametrize(
@@ -62,3 +70,10 @@ def test_curves_are_read_at_the_nearest_sample_of_any_and_where_asked_between_th
     assert snapped.x == 0.9 and snapped.values[1].text == "6.000 µm" and snapped.head == "x 0.9000 mm"
     free = curves_at([first], ("x, mm", "y, µm"), 1.5, snap=False)
     assert free.x == 1.5 and free.values[0].number == pytest.approx(2.25)
+
+
+def test_every_sample_covers_its_own_middle_and_half_of_the_way_to_the_next():
+    samples = Samples(np.zeros((3, 4)), (-2.0, 1.0, 8.0, 3.0))
+    for row, column in np.ndindex(3, 4):
+        x, y = samples.centre(row, column)
+        assert samples.nearest(x - 0.99, y - 0.49) == samples.nearest(x + 0.99, y + 0.49) == (row, column)

@@ -20,6 +20,7 @@ from p2sf.paraxial.seidel import coefficients
 from p2sf_explorer.compute.glass_outlines import vertices
 from p2sf_explorer.compute.layout import layout
 from p2sf_explorer.compute.setup import load, paraxial_setup, prescription, ranges, with_lens
+from p2sf_explorer.panels.layout import source_point
 from p2sf_explorer.panels.layout.grips import drag, glass_runs, group_of, sensor_grip, stop_grips, surface_grips
 from p2sf_explorer.panels.layout.object_space import object_space
 from p2sf_explorer.panels.layout.panel import LayoutPanel
@@ -415,6 +416,21 @@ def test_the_empty_object_space_takes_a_sixth_of_the_width_at_most(window, chart
         window.store.replace(with_lens(FIRST, name))
         space = space_of(chart, chart.live)
         assert space.broken < chart.width() / 4 and space.end > 0
+
+
+def test_leads_from_a_far_source_meet_its_rays_over_the_break_of_the_axis(window, chart, monkeypatch):
+    window.store.replace(change(FIRST, depth_mm=5000.0, field_deg=6.0))
+    leads, line = [], source_point.QLineF
+    monkeypatch.setattr(source_point, "QLineF", lambda *ends: leads.append(ends) or line(*ends))
+    chart.grab()
+    space, ring = space_of(chart, chart.live), chart.handle.pixel(chart.live)
+    along = [(ray.z[:2], ray.y[:2]) for ray in chart.live.layout.rays]
+    for start, end in leads:
+        z, height = chart.from_pixels(end)
+        assert z == pytest.approx(space.break_z) and start.x() == pytest.approx(ring.x())
+        missed = [abs(y[0] + (z - at[0]) * (y[1] - y[0]) / (at[1] - at[0]) - height) for at, y in along]
+        assert min(missed) == pytest.approx(0, abs=1e-6)
+    assert len(leads) > 2 and max(abs(chart.from_pixels(end)[1]) for _, end in leads) > 1
 
 
 @pytest.mark.parametrize("depth", [30.0, 400.0, inf])
