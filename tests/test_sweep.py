@@ -229,3 +229,9 @@ def test_a_missing_library_is_named(monkeypatch):
 def test_the_benchmark_finds_the_same_bits():
     axes = {"depth_mm": np.array([3000.0]), "field_deg": np.array([0.0, 9.0]), "wavelength_nm": np.array([550.0])}
     assert sweep_benchmark.main(axes, rounds=1) > 0
+
+
+def test_a_sweep_says_how_many_points_it_has_along_each_axis():
+    camera = Camera("achromat_f6")
+    assert repr(camera.sweep()) == f"<Sweep of {camera.its_lens.name}: one point>"
+    assert repr(camera.sweep(f_number=[8.0, 11.0], field_deg=[0.0, 1.0, 2.0])).endswith(": f_number 2 × field_deg 3>")

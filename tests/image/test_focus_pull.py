@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from p2sf.image.components import KernelNodes, blur, components, over_picture
 from p2sf.image.focus_pull import MOVING, focused_picture, keep
@@ -12,10 +13,12 @@ from p2sf.image.geometry import illumination
 from p2sf.image.kernel_octaves import halved, octave_kernels, setting
 from p2sf.image.octaves import block_means, enlarge, finest_octave, octave_weights
 from p2sf.image.slabs import LEVELS, Slab, cut_into_slabs, cuts, depth_levels
+from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.pixel_kernels.landing_light import landing_kernels
+from p2sf.raytrace.pencil import pencil
 from p2sf.scene.planning.plan import plan
-from p2sf.scene.scene import Scene
+from p2sf.scene.scene import Channel, Scene
 from p2sf.scene.sensor import Sensor
 
 SHAPE = 96, 144
@@ -199,3 +202,23 @@ def test_pixels_that_are_no_whole_coarse_ones_are_kept():
     scene = replace(SCENE, sensor=Sensor(50, 71, 12.0))
     found = pulled(values, None, scene)
     assert found.values.shape == values.shape and isinstance(found.error, float)
+
+
+def test_kernels_of_two_colours_lie_apart_as_their_chief_rays_do():
+    """Blue of a landscape lens at f/22 lands farther out than red, here by 18 µm: coma and pixels make 2 % of it."""
+    waves, depth = (0.45, 0.65), 900.0
+    channels = tuple(Channel(f"{wave}", (1000 * wave,), (1.0,)) for wave in waves)
+    scene = Scene(Sensor(24, 36, 200.0), channels, depth, rtol=0.05, focus_mm=depth, f_number=22.0)
+    lens = scene.camera(find_lens("landscape"))
+    made = setting(lens, scene, MOVING)
+    x, y = float(made.coarse.x_mm(made.places[1][0])), float(made.coarse.y_mm(made.places[0][0]))
+
+    def landing_mm(slope, wave):
+        return abs(float(np.squeeze(pencil(lens, Source(depth, slope, wave), *np.zeros((2, 1))).chief_y)))
+
+    slope = brentq(lambda slope: landing_mm(slope, waves[1]) - np.hypot(x, y), 1e-4, 0.04)
+    away = 1000 * (landing_mm(slope, waves[0]) - np.hypot(x, y)) * np.array([x, y]) / np.hypot(x, y)
+    kernels = octave_kernels(made).finer.kernels[:, 0, 0, 0]
+    at = (np.arange(kernels.shape[-1]) - kernels.shape[-1] // 2) * 200.0 * 2 ** (MOVING.halvings - 1)
+    blue, red = np.stack([kernels.sum(1) @ at, -(kernels.sum(2) @ at)], axis=1)
+    assert blue - red == pytest.approx(away, rel=0.05) and np.hypot(*away) > 10

@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from p2sf.conventions import angle_from_axis
 from p2sf.errors import GeometryError
 from p2sf.glass.media import ConstantIndex, TabulatedIndex
 from p2sf.lens.lens import Aperture, Lens, Surface, indices, with_f_number, with_sensor
@@ -111,3 +112,10 @@ sys.stdout.buffer.write(pickle.dumps(lens))
     here, came = find_lens("tessar"), pickle.loads(sent.stdout)
     assert came == here and {here: "kept"}.get(came) == "kept"
     assert copy.deepcopy(came) == copy.copy(came) == here
+
+
+@pytest.mark.parametrize(("x_deg", "y_deg"), [(0.0, -20.0), (30.0, 0.0), (30.0, -20.0), (5.0, 60.0)])
+def test_a_field_of_two_angles_is_as_far_from_the_axis_as_its_direction(x_deg, y_deg):
+    direction = np.array([np.tan(np.deg2rad(x_deg)), np.tan(np.deg2rad(y_deg)), 1.0])
+    angle = np.arccos(direction[2] / np.linalg.norm(direction))
+    assert angle_from_axis(x_deg, y_deg) == pytest.approx(np.rad2deg(angle))

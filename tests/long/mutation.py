@@ -87,6 +87,10 @@ EQUIVALENT: dict[tuple[str, str], str] = {
         "p2sf/metrics/window.py",
         "fine, coarse = _split(values.astype(float), psf.x_um - x, psf.y_um - y, psf.pixel_um)",
     ): "both parts are joined, in either order",
+    (
+        "p2sf/image/pupil_moments.py",
+        "self.cut = bool(self.values[2:].any())",
+    ): "no edge cuts a pupil so that its first moment alone is not zero",
 }
 """Of a file and a broken line, why nobody can tell it from the right one."""
 

@@ -7,11 +7,13 @@ import numpy as np
 import pytest
 
 from p2sf.errors import P2SFError
-from p2sf.lens.lens import with_mask
+from p2sf.lens.lens import with_f_number, with_mask
 from p2sf.lensfile.library import find_lens, load_lens
 from p2sf.lensfile.toml.lens import lens_to_toml
+from p2sf.paraxial.seidel import coefficients
 from p2sf.pupil.mask import PupilMask
 from p2sf.setting import Request, set_up
+from p2sf_explorer.compute.editing import best_focused
 from p2sf_explorer.compute.layout import layout
 from p2sf_explorer.compute.setup import (
     default_state,
@@ -105,3 +107,12 @@ def test_a_lens_that_is_not_symmetric_opens_at_a_field_of_its_file():
     state = default_state(str(path))
     assert (state.optics.field_x_deg, state.optics.field_deg) == (0.0, -5.0)
     assert ranges(load_lens(path)).stated_deg == ((3.0, 0.0), (0.0, -5.0), (0.0, 5.0))
+
+
+@pytest.mark.parametrize(("name", "f_number"), [("landscape", 8.0), ("double_gauss_28", 4.0)])
+def test_an_edited_lens_is_refocused_where_defocus_balances_its_spherical_aberration(name, f_number):
+    """On the axis the RMS of W40ρ⁴ + Wρ² is least for W = −W40 (Mahajan 1991, §8.3)."""
+    state = change(with_lens(new_state(method="seidel"), name), f_number=f_number, field_deg=0.0)
+    lens = with_f_number(best_focused(state, prescription(state))[1], f_number)
+    c = coefficients(lens, np.inf, 0.0, lens.reference_wavelength_um)
+    assert float(c.w20 + c.wd) == pytest.approx(-float(c.w40), rel=1e-4) and abs(float(c.w40)) > 1
