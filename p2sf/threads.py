@@ -13,16 +13,18 @@ import os
 import sys
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import ContextDecorator, contextmanager
 from contextvars import ContextVar, copy_context
 from functools import lru_cache
 from itertools import chain, islice
 from math import inf
 from threading import Lock, local
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from p2sf.errors import RequestError
+
+if TYPE_CHECKING:
+    from concurrent.futures import Future
 
 VARIABLE = "P2SF_THREADS"
 AHEAD = 2  # parts per thread: no thread idles while the caller takes a result, and few results are kept
@@ -123,6 +125,8 @@ def _by_pool(
     most: float,
 ) -> None:
     """Do the work of `for_each` in ``count`` threads, with at most ``most`` results running or waiting."""
+    from concurrent.futures import ThreadPoolExecutor
+
     waiting: deque[Future[Result]] = deque()
     with ThreadPoolExecutor(count, initializer=_become_worker) as pool:
         try:

@@ -2,7 +2,6 @@
 
 import errno
 import os
-import secrets
 import stat
 import struct
 import warnings
@@ -50,7 +49,7 @@ def write_whole(path: str | os.PathLike, write: Callable[[BinaryIO], object]) ->
     target = os.path.realpath(path)
     replaced = replaceable(target)
     folder = os.path.dirname(target)
-    part = os.path.join(folder, f".{secrets.token_hex(6)}.part")
+    part = os.path.join(folder, f".{os.urandom(6).hex()}.part")
     try:
         unnamed = _nameless_file(folder)
         with unnamed or open(part, "xb") as handle:

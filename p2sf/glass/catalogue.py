@@ -5,7 +5,6 @@ The data are those of refractiveindex.info (`pages`), read on the first look-up.
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from difflib import get_close_matches
 from functools import cache
 
 from p2sf.errors import GlassError
@@ -100,6 +99,8 @@ def _label_with_index(entry: CatalogueEntry) -> Message:
 
 def _suggestion(name: str, labels: dict[str, tuple[str, str]]) -> Message:
     """Return "did you mean …?" with the labels whose name without the maker is similar to ``name``, in capitals."""
+    from difflib import get_close_matches
+
     by_name: dict[str, list[str]] = {}
     for label, key in labels.items():
         by_name.setdefault(key[1], []).append(label)

@@ -2,7 +2,6 @@
 
 import os
 from collections.abc import Iterable
-from difflib import get_close_matches
 from pathlib import Path
 
 from p2sf.errors import LensFileError
@@ -48,6 +47,8 @@ def find_lens(name_or_path: str | os.PathLike) -> Lens:
         return load_lens(lenses_folder() / f"{text}{SUFFIX}")
     if text.endswith(SUFFIX) or "/" in text or os.sep in text or _exists(text):
         return load_lens(text)
+    from difflib import get_close_matches
+
     close = get_close_matches(text.lower(), shipped_lenses(), 3, 0.5)
     if close:
         raise LensFileError(

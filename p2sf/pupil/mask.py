@@ -7,7 +7,6 @@ azimuths of sources are. Phases are path lengths in µm, so that the wavelength 
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from functools import cached_property, lru_cache
-from hashlib import sha256
 from math import acos, atan2, cos, hypot, inf, pi, radians, sin, sqrt
 from typing import TYPE_CHECKING
 
@@ -49,6 +48,8 @@ class PupilMap:
     """
 
     def __init__(self, values: ArrayLike):
+        from hashlib import sha256
+
         table = real_array("values", values)
         check_map_shape(table.shape)
         if not np.isfinite(table).all():

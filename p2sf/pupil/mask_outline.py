@@ -11,9 +11,8 @@ POINTS = 241  # of a circle, and at least of an iris
 
 def opening(mask: PupilMask) -> np.ndarray:
     """Return ξ and η of the rim, or of the iris within it, a closed line, (2, points)."""
-    between = [np.linspace(0.0, 2 * pi, POINTS)]
     corners = np.mod(mask.corner_angles, 2 * pi)
-    theta = np.unique(np.concatenate([*between, corners]))
+    theta = np.sort(np.append(np.linspace(0.0, 2 * pi, POINTS), corners))
     outline: np.ndarray = opening_radius(mask, theta) * np.stack([np.sin(theta), np.cos(theta)])
     return outline
 

@@ -112,6 +112,8 @@ WHOLE_DISC = PupilEdges()
 
 def edges_of(mask: PupilMask) -> tuple[Edges, Edges]:
     """Return the closed edges over the stop, ξ and η each: of the iris, if any, and of what is dark inside."""
+    if not mask.edged:
+        return [], []
     corners = [angle % (2 * pi) for angle in mask.corner_angles]
     theta = np.unique(np.concatenate([np.linspace(0, 2 * pi, CURVE, endpoint=False), corners]))
     sine, cosine, outer = np.sin(theta), np.cos(theta), outline_radius(mask, theta)

@@ -2,7 +2,6 @@
 
 import errno
 import os
-import secrets
 import shutil
 from collections.abc import Iterator
 from contextlib import suppress
@@ -182,7 +181,7 @@ def _copy(source: Path, handle: BinaryIO) -> None:
 
 
 def _write_pngs(frames: Iterator[FilmFrame], path: Path) -> tuple[Path, ...]:
-    folder = path.resolve().with_name(f".{secrets.token_hex(6)}.part")
+    folder = path.resolve().with_name(f".{os.urandom(6).hex()}.part")
     made: list[Path] = []
     try:
         folder.mkdir()

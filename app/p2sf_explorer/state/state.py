@@ -5,7 +5,6 @@ ambiguous (`ENTRIES`). `change` and `new_state` take entries by these names; `st
 """
 
 from dataclasses import dataclass, field, fields, replace
-from difflib import get_close_matches
 from math import inf
 from typing import Any, ClassVar
 
@@ -567,6 +566,8 @@ def change(state: State, **entries: Any) -> State:
     groups: dict[str, dict[str, Any]] = {}
     for name, value in entries.items():
         if name not in ENTRIES:
+            from difflib import get_close_matches
+
             close = get_close_matches(name, ENTRIES, 3, 0.5)
             raise RequestError(
                 'the state has no entry "{name}"; choose {names}',

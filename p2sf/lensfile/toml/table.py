@@ -3,7 +3,6 @@
 import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
-from difflib import get_close_matches
 from json import dumps
 from math import nan
 from typing import TYPE_CHECKING, Any, NoReturn, TypeGuard
@@ -125,6 +124,8 @@ class Table:
                 self.fail(
                     'key "{name}" belongs to the top of the file; move it before the first [ heading', key, name=key
                 )
+            from difflib import get_close_matches
+
             close = get_close_matches(key, known, 1)
             if close:
                 self.fail('key "{name}" is unknown; did you mean "{known}"?', key, name=key, known=close[0])
