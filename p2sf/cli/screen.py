@@ -1,12 +1,17 @@
 """What commands print: tables with units for people, one JSON object for programs, warnings on standard error."""
 
 import json
+import os
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from math import isinf
+from itertools import zip_longest
+from math import inf, isinf
+from shutil import get_terminal_size
+from textwrap import wrap
 from time import perf_counter
 from typing import Any
+from unicodedata import combining, east_asian_width
 
 from p2sf.files.writing import plain
 from p2sf.image.progress import seconds_left
@@ -19,7 +24,7 @@ Row = tuple[object, ...]
 FILLED = {"stop": "the real stop", "paraxial": "the paraxial entrance pupil"}  # by exact rays, `Lens.aim`
 LINE = 30  # columns of a line of progress
 EVERY = 10.0  # seconds between lines of progress in a log
-WIDE = 240  # columns of a page that no terminal limits
+NARROWEST = 12  # columns of a cell that goes on in further lines
 
 
 def print_json(value: Mapping[str, Any]) -> None:
@@ -28,24 +33,57 @@ def print_json(value: Mapping[str, Any]) -> None:
 
 
 def print_table(title: str, columns: tuple[str, ...], rows: Sequence[Row]) -> None:
-    """Print a table, with rules and colours only on a terminal; numbers to six digits, columns of them to the right."""
-    from rich import box
-    from rich.console import Console
-    from rich.table import Table
+    """Print a table, with a rule and bold type only on a terminal; numbers to six digits, columns of them to the right.
 
+    Where a terminal is too narrow for it, heads of numbers and the widest column go on in further lines.
+    """
     terminal = sys.stdout.isatty()
-    console = Console(file=sys.stdout, width=None if terminal else WIDE, highlight=False)
-    style = box.SIMPLE_HEAD if terminal else None
-    table = Table(box=style, pad_edge=False)
-    for number, name in enumerate(columns):
-        numeric = any(isinstance(row[number], int | float) for row in rows)
-        table.add_column(name, justify="right" if numeric else "left")
-    for row in rows:
-        table.add_row(*map(text, row))
-    with console.capture() as page:
-        console.print(printable(title), style="bold", markup=False)
-        console.print(table)
-    sys.stdout.write(page.get())  # printed by the console itself, a closed pipe would exit with a code of rich's choice
+    gap = "   " if terminal else "  "
+    numeric = [any(isinstance(row[number], int | float) for row in rows) for number in range(len(columns))]
+    table = [columns, *(tuple(map(text, row)) for row in rows)]
+    room = get_terminal_size().columns - len(gap) * (len(columns) - 1) if terminal else inf
+    widths = _widths(table, numeric, room)
+    head, *body = (_row_lines(row, widths, numeric, gap) for row in table)
+    bold, plain = ("\033[1m", "\033[0m") if terminal and _shows_bold() else ("", "")
+    rule = ["─" * text_width(head[0])] if terminal else []
+    page = [f"{bold}{line}{plain}" for line in (*printable(title).split("\n"), *head)] + rule
+    sys.stdout.write("\n".join([*page, *(line for lines in body for line in lines), ""]))
+
+
+def _widths(table: Sequence[tuple[str, ...]], numeric: Sequence[bool], room: float) -> list[int]:
+    """Return the widths of the columns of a table, its head the first row, as far as they can within some room."""
+    widths = [max(map(text_width, column)) for column in zip(*table, strict=True)]
+    if sum(widths) <= room:
+        return widths
+    for number, (head, *cells) in enumerate(zip(*table, strict=True)):
+        if numeric[number]:
+            widths[number] = max(map(text_width, (*head.split(), *cells)))
+    widest = widths.index(max(widths))
+    widths[widest] = max(NARROWEST, widths[widest] + int(min(0, room - sum(widths))))
+    return widths
+
+
+def _row_lines(cells: Sequence[str], widths: Sequence[int], numeric: Sequence[bool], gap: str) -> list[str]:
+    """Return the lines of a row of a table, numbers to the right: several where a cell is wider than its column."""
+    wrapped = [
+        wrap(cell, width) if text_width(cell) > width else [cell] for cell, width in zip(cells, widths, strict=True)
+    ]
+    lines = []
+    for parts in zip_longest(*wrapped, fillvalue=""):
+        spaces = [" " * (width - text_width(part)) for part, width in zip(parts, widths, strict=True)]
+        columns = zip(parts, spaces, numeric, strict=True)
+        lines.append(gap.join(space + part if right else part + space for part, space, right in columns))
+    return lines
+
+
+def text_width(shown: str) -> int:
+    """Return how many columns of a terminal a text takes: two for a wide letter, none for an accent of its own."""
+    return sum(0 if combining(letter) else 1 + (east_asian_width(letter) in "WF") for letter in shown)
+
+
+def _shows_bold() -> bool:
+    """Return whether the terminal can be expected to know the code for bold type (ECMA-48, 8.3.117)."""
+    return sys.platform != "win32" and os.environ.get("TERM") not in (None, "", "dumb", "unknown")
 
 
 def text(value: object) -> str:
