@@ -61,6 +61,7 @@ class LateAnswers(QObject):
     ``answer(question, stopped, tell)`` is what `ask` runs. ``paint(question, answer)`` shows an answer, whole or what
     ``tell(share, so far)`` has of it, as long as one is wanted. ``say`` is called with the text that ``paint``
     returns, marked while the picture of another question is on screen, or with the reason why there is none.
+    ``held_ms``: how long a question stands in `ask_when_held` before it is asked.
     """
 
     finished = Signal(object, object)
@@ -74,6 +75,7 @@ class LateAnswers(QObject):
         answer: Callable[[Any, Callable[[], bool], Tell], object] | None = None,
         paint: Callable[[Any, Any], Message | str] | None = None,
         say: Callable[[str], None] = lambda text: None,
+        held_ms: int = HELD_MS,
     ):
         super().__init__(owner)
         self._answer, self._paint, self._say = answer, paint, say
@@ -82,7 +84,7 @@ class LateAnswers(QObject):
         self._text: Message | str = ""
         self._refusal: Message | P2SFError | None = None
         self._later: object = None
-        self._held = QTimer(self, singleShot=True, interval=HELD_MS)
+        self._held = QTimer(self, singleShot=True, interval=held_ms)
         self._held.timeout.connect(lambda: self.ask(self._later))
         self._thread, self._runner = QThread(self), _Runner()
         self._runner.moveToThread(self._thread)
@@ -97,8 +99,8 @@ class LateAnswers(QObject):
 
     @property
     def busy(self) -> bool:
-        """Return whether a job is running."""
-        return self._cancelled is not None
+        """Return whether a job is running, or will once its question has been held."""
+        return self._cancelled is not None or self._held.isActive()
 
     def ask(self, question: object) -> None:
         """Ask, unless this is what was asked last."""
@@ -107,7 +109,7 @@ class LateAnswers(QObject):
             self.submit(question, lambda cancelled, tell: answer(question, cancelled.is_set, tell))
 
     def ask_when_held(self, question: object) -> None:
-        """Ask once no other question has come for `HELD_MS`, since the frames of a slider that moves go first."""
+        """Ask once no other question has come for ``held_ms``, since the frames of a slider that moves go first."""
         if question == self.asked:
             return
         self.forget()
@@ -128,7 +130,7 @@ class LateAnswers(QObject):
         self.asked, self._refusal = question, None
         self._tell()
         self._waiting = (question, job)
-        if not self.busy:
+        if self._cancelled is None:
             self._next()
 
     def refuse(self, reason: Message | P2SFError) -> None:

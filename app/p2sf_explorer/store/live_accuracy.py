@@ -16,6 +16,8 @@ from p2sf_explorer.store.late_answers import LateAnswers, Tell
 if TYPE_CHECKING:
     from p2sf_explorer.compute.reference import Accuracy
 
+REST_MS = 300  # of a picture before it is measured, so that the first picture, and the next state, do not wait for it
+
 
 class ShowBadge(Protocol):
     """Writes the measured R² of an answer, None for none, on the PSF, and the method that it refers to."""
@@ -65,7 +67,7 @@ class LiveAccuracy(QObject):
         self._show_badge, self._display = show_badge, display
         self._live: Live | None = None
         self._last: Accuracy | None = None
-        self.late = LateAnswers(self, _measured)
+        self.late = LateAnswers(self, _measured, held_ms=REST_MS)
         self.late.finished.connect(self._on_finished)
         self.late.failed.connect(self._on_failed)
         self.late.progressed.connect(lambda _, part: self._show(lambda panel: panel.show_progress(part)))
@@ -87,7 +89,7 @@ class LiveAccuracy(QObject):
         elif self._last and fits(self._last, live, every_method):
             self._tell(self._last)
         else:
-            self.late.ask(AccuracyQuestion(picture(live), every_method, live))
+            self.late.ask_when_held(AccuracyQuestion(picture(live), every_method, live))
 
     def _on_finished(self, _: AccuracyQuestion, accuracy: "Accuracy") -> None:
         self._last = accuracy

@@ -167,8 +167,8 @@ def test_a_question_of_a_slider_that_moves_waits_until_it_is_held(qtbot, asked):
     gate.set()
     for number in range(5):
         late.ask_when_held(number + 1)
-        assert late.asked is None and not late.busy
-    qtbot.waitUntil(lambda: runs != [] and not late.busy)
+        assert late.asked is None and late.busy and not runs
+    qtbot.waitUntil(lambda: not late.busy)
     assert runs == [5]
     late.ask_when_held(6)
     late.stop()
