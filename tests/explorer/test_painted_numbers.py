@@ -17,6 +17,7 @@ from p2sf_explorer.charts.crosshair import box_place
 from p2sf_explorer.charts.plots import lookup
 from p2sf_explorer.charts.surface_plot import DARKEST, Viewpoint, light_up, slice_map
 from p2sf_explorer.charts.theme import tokens
+from p2sf_explorer.compute.finer import LARGEST, smooth
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.matrix.points import depths_around
 from p2sf_explorer.compute.quantities import QUANTITIES
@@ -33,6 +34,7 @@ from p2sf_explorer.state.scales import written_r_squared
 from p2sf_explorer.state.state import change, new_state
 from p2sf_explorer.widgets.scrub import claimed
 from p2sf_explorer.widgets.slider import ARROWS
+from p2sf_explorer.widgets.tiles import tile
 
 FIRST = new_state(method="seidel", theme="light")
 
@@ -330,3 +332,9 @@ def test_depths_around_one_stand_a_wave_of_defocus_or_a_little_more_apart():
     steps = np.abs(np.diff([1 / depth for depth in depths_around(answer, 5)]))
     wave = 2 * 0.5875618e-3 / (focal_points("double_gauss_28")[0] / 16) ** 2
     assert steps == pytest.approx(np.full(4, steps[0]), rel=0.02) and wave * 0.95 <= steps[0] <= 2.6 * wave
+
+
+def test_a_small_picture_is_smoothed_to_a_size_that_is_painted_at_once_and_is_none_where_light_is_unknown():
+    assert smooth(np.ones((16, 16))).shape[-1] > 16 and smooth(np.ones((LARGEST, LARGEST))).shape[-1] == LARGEST
+    assert tile(np.ones((16, 16)), 0.0, 0.0, "linear") is not None
+    assert tile(np.where(np.eye(16), np.nan, 1.0), 0.0, 0.0, "linear") is None

@@ -24,6 +24,7 @@ from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.seidel import coefficients
 from p2sf.pixel_kernels.frequency_grid import pupil_map
 from p2sf.pixel_kernels.pixels import PixelWindow, part_filled_kernel, pixel_kernel
+from p2sf.pixel_kernels.ray_spread import part_filled_rays, ray_spread
 from p2sf.psf.methods import PsfOptions, render
 from tests.support.tiers import in_tiers
 
@@ -242,3 +243,13 @@ def test_a_point_whose_rays_all_stop_is_named_by_its_field():
     with pytest.raises(GeometryError) as caught:
         psf_set(find_lens("telephoto"), SetAxes((inf,), (60.0,), (587.6,)), PixelGrid(4.0))
     assert caught.value.message.values["where"].values["field"] == pytest.approx(60.0)
+
+
+@pytest.mark.parametrize("half", [1, 4])
+def test_light_of_rays_on_whole_pixels_is_that_of_the_rays_that_land_there(half):
+    """Of a blur of 0.2 mm; cells at the edge of the square are taken whole or not at all."""
+    rays = ray_spread(find_lens("double_gauss_28"), Source(600.0, 0.0, WAVE_NM / 1000))
+    edge = (half + 0.5) * 12.0
+    inside = (np.abs(rays.x_um) < edge) & (np.abs(rays.y_um) < edge)
+    share = len(rays.sides) * float(rays.light[inside].sum())
+    assert part_filled_rays(rays, half, 12.0, 1.0).sum() == pytest.approx(share, rel=0.02) and share < 0.9

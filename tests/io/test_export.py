@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 from dataclasses import replace
+from io import BytesIO
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ import pytest
 from p2sf.errors import ExportError
 from p2sf.figures.psf_data import PsfFigures, facts
 from p2sf.files.writing import check_place, plain, write_beside, write_json
+from p2sf.io import psf_plot
 from p2sf.io.psf_files import write_psf
 from p2sf.io.psf_plot import edges_um, round_length
 from p2sf.messages import Message
@@ -222,3 +224,10 @@ def test_a_missing_file_is_named(tmp_path):
 def test_plain_values_are_strict_json():
     value = plain({"a": np.float64(np.inf), "b": np.arange(2), "c": (np.nan, -0.0), "d": np.bool_(True), 5: None})
     assert json.dumps(value, allow_nan=False) == '{"a": null, "b": [0, 1], "c": [null, 0.0], "d": true, "5": null}'
+
+
+def test_a_spot_diagram_has_its_rays_at_their_x_and_y(monkeypatch):
+    drawn, points = [], np.array([[1.0, 2.0], [3.0, -4.0], [5.0, 6.0]])
+    monkeypatch.setattr(psf_plot, "_write_png", lambda figure, *_: drawn.append(figure.axes[0].lines[0].get_xydata()))
+    psf_plot.draw_spot(BytesIO(), points, 1.0)
+    assert np.array_equal(drawn[0], points)

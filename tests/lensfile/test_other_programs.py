@@ -166,6 +166,11 @@ def test_cylinders_of_renderers_and_toroids_of_optiland():
     assert sag == pytest.approx(50 - np.sqrt((50 - curve) ** 2 - x**2), rel=1e-12)
 
 
+def test_a_planar_surface_of_a_renderer_is_flat_whatever_its_radius():
+    assert read("sections.fx").lens.surfaces[3].vertex_curvature == pytest.approx(1 / 20.3)
+    assert read("sections.fx", ("AIR          SPHERICAL", "AIR          PLANAR")).lens.surfaces[3].vertex_curvature == 0
+
+
 def test_the_object_of_a_patent():
     """Marginal rays of NA 0.1 at the image of a relay of two lenses, 97 mm before the first: by a paraxial trace."""
     lens = lens_of("patent.json")

@@ -91,6 +91,27 @@ EQUIVALENT: dict[tuple[str, str], str] = {
         "p2sf/image/pupil_moments.py",
         "self.cut = bool(self.values[2:].any())",
     ): "no edge cuts a pupil so that its first moment alone is not zero",
+    (
+        "p2sf/lens/shapes.py",
+        "for m in range(2, count + 2):",
+    ): "one step more, which is cut off",
+    (
+        "app/p2sf_explorer/compute/views/field.py",
+        "line, along = np.linspace(-1, 1, GRID) / np.sqrt(2), np.linspace(-1, 1, 2 * GRID + 2) / np.sqrt(2)",
+    ): "one place more along a side of a map",
+    (
+        "app/p2sf_explorer/compute/views/tolerances.py",
+        "air = (2 * (0.02 * (high - low))) or max(abs(low), 1e-6)",
+    ): "the air beyond the ends of an axis",
+    (
+        "app/p2sf_explorer/charts/axes.py",
+        "if not area.left() - 2 <= x <= area.right() + 1:",
+    ): "a tick may stand a pixel beyond its axis",
+    (
+        "p2sf/psf/sums/spherical_waves.py",
+        "columns, rows = (np.unique(np.linspace(0, axis.size - 2, PROBED_SIDE).round().astype(int)) "
+        "for axis in (x, y))",
+    ): "the places that are probed may be any",
 }
 """Of a file and a broken line, why nobody can tell it from the right one."""
 

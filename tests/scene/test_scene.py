@@ -16,6 +16,7 @@ from p2sf.pixel_kernels.pupil_table import chebyshev, lagrange
 from p2sf.pupil.mask import PupilMask
 from p2sf.scene.files import read_scene
 from p2sf.scene.planning.bounds import check_blur
+from p2sf.scene.planning.cost import Work, predicted_cost
 from p2sf.scene.planning.plan import _colour_errors, plan
 from p2sf.scene.planning.reference import reference_kernel
 from p2sf.scene.planning.sharing import REMAINDER, TARGET_ERROR, fewer_nodes, share_pupils
@@ -390,3 +391,9 @@ def test_errors_of_sampling_are_those_stated(mask):
             found[sampling] += map(distance, made, good)
     for sampling, errors in found.items():
         assert np.quantile(errors, 0.95) <= stated[sampling] <= 12 * np.median(errors)
+
+
+def test_a_picture_on_its_side_costs_the_same():
+    work = Work(90, 64.0, 1e-4, 1e-2, 12, rows=600, columns=2000, channels=3, nodes=(2, 5), layers=1)
+    aside = replace(work, rows=2000, columns=600, nodes=(5, 2))
+    assert predicted_cost(aside).seconds == pytest.approx(predicted_cost(work).seconds, rel=1e-12)

@@ -4,10 +4,12 @@ import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 
+from p2sf.colour.spectrum import spectrum_of
 from p2sf.lens.lens import with_f_number
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.psf.methods import render
+from p2sf.psf.polychromatic import suitable_pitch_um
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.compute.views import colour
@@ -151,3 +153,11 @@ def test_a_refused_spectrum_says_so_until_there_is_a_picture_again(window, panel
     window.store.update(spectrum="lines:486,656")
     filled(panel, qtbot)
     assert panel.widget.readout.text().split(" · ")[:2] == words.split(" · ")[:2]
+
+
+@pytest.mark.parametrize("f_number", [2.8, 4.0, 8.0, 16.0])
+def test_the_window_is_as_wide_as_the_light_needs_and_at_most_to_the_next_round_width(f_number):
+    question, _ = asked(field_deg=10.0, f_number=f_number)
+    setup, (pixels, pixel_um) = paraxial_setup(question.state), question.window
+    pitch = suitable_pitch_um(setup.lens, setup.source, spectrum_of(question.spectrum), pixels, setup.stop)
+    assert 1 - 1e-9 <= pixel_um / pitch <= 2.5
