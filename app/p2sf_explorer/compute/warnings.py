@@ -9,11 +9,11 @@ import numpy as np
 from p2sf.lens.lens import Lens, message_if_misaligned
 from p2sf.messages import Message, Number
 from p2sf.metrics.wavefront_map import WavefrontMap, disc
+from p2sf.paraxial.balance import strongest
 from p2sf.paraxial.lens_checks import lens_checks
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.raytrace.trace import out_of_order
 from p2sf_explorer.compute.layout import RayPath
-from p2sf_explorer.compute.pupil import strongest
 from p2sf_explorer.compute.setup import ParaxialSetup
 from p2sf_explorer.state.panels import REGISTRY, REMAINS
 from p2sf_explorer.state.scales import significant

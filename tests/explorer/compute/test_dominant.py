@@ -7,10 +7,11 @@ import pytest
 
 from p2sf.messages import Message
 from p2sf.metrics.wavefront_map import WavefrontMap, disc, map_of, samples_of_coefficients
+from p2sf.paraxial.balance import strongest, variance_parts
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.raytrace.pencil import displayed_opd, pencil, pupil_grid
 from p2sf_explorer.compute.live import live
-from p2sf_explorer.compute.pupil import dominant, pupil_of, strongest, variance_parts
+from p2sf_explorer.compute.pupil import dominant, pupil_of
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.compute.warnings import NEARER, TOGETHER, remedy
 from p2sf_explorer.state.state import State, change, new_state

@@ -8,8 +8,8 @@ from PySide6.QtWidgets import QApplication, QToolButton
 from shiboken6 import isValid
 
 from p2sf.errors import P2SFError
+from p2sf.paraxial.balance import best_focus_um
 from p2sf_explorer.compute.autofocus import best_shift_um
-from p2sf_explorer.compute.pupil import best_focus_um
 from p2sf_explorer.compute.setup import default_state, paraxial_setup
 from p2sf_explorer.files.session import last_session
 from p2sf_explorer.files.session_keeper import SessionKeeper
