@@ -78,6 +78,8 @@ def _row_lines(cells: Sequence[str], widths: Sequence[int], numeric: Sequence[bo
 
 def text_width(shown: str) -> int:
     """Return how many columns of a terminal a text takes: two for a wide letter, none for an accent of its own."""
+    if shown.isascii():
+        return len(shown)
     return sum(0 if combining(letter) else 1 + (east_asian_width(letter) in "WF") for letter in shown)
 
 
