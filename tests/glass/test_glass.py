@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from p2sf.errors import GlassError
-from p2sf.glass.catalogue import glasses_by_maker
+from p2sf.glass.catalogue import _label_with_index, find_entry, glasses_by_maker
 from p2sf.glass.dispersion import FORMULAS, LINES_UM, refractive_index, through_neighbours
 from p2sf.glass.media import (
     AIR,
@@ -296,3 +296,9 @@ def test_a_scalar_index_is_quick():
             glass.index(wave)
         times.append((time.process_time() - start) / 100)
     assert np.median(times) < 1e-5
+
+
+@pytest.mark.parametrize(("name", "words"), [("N-BK7", "nd 1.5168"), ("IRG22", "")])
+def test_a_glass_that_is_named_in_an_error_has_its_nd_if_it_is_known(name, words):
+    said = str(_label_with_index(find_entry(name)))
+    assert words in said and ("nd" in said) == bool(words)

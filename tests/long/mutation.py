@@ -112,6 +112,10 @@ EQUIVALENT: dict[tuple[str, str], str] = {
         "columns, rows = (np.unique(np.linspace(0, axis.size - 2, PROBED_SIDE).round().astype(int)) "
         "for axis in (x, y))",
     ): "the places that are probed may be any",
+    (
+        "p2sf/raytrace/field_geometry.py",
+        "rays.append(_chief(flat, source_at(source.depth_mm, slope_x + x, slope_y - y, source.wavelength_um)))",
+    ): "neighbours on both sides are summed",
 }
 """Of a file and a broken line, why nobody can tell it from the right one."""
 

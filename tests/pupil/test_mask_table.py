@@ -14,7 +14,7 @@ from p2sf.pupil.mask import PupilMap, PupilMask
 from p2sf.pupil.mask_cells import open_share
 from p2sf.pupil.mask_nodes import mask_nodes, throughput
 from p2sf.pupil.mask_outline import dark_heights, obstructions, opening
-from p2sf.pupil.open_part import edges_of
+from p2sf.pupil.open_part import StarCurve, edges_of
 from p2sf.raytrace.clear_pieces import piece_nodes
 from p2sf.setting import MASK, Request, mask_of
 
@@ -213,3 +213,14 @@ def test_a_request_states_it():
         sample = SAMPLES[name]
         stated = {other: getattr(sample, other) for other in MASK}
         assert name in PARAMETERS and mask_of(None, Request(**stated)) == sample
+
+
+def test_a_curve_that_is_held_follows_the_open_part_about_its_middle_in_order():
+    """An ellipse twice as wide as a circle and half as high: its ends lie on the circle, and nothing runs back."""
+    turn = np.linspace(0, 2 * np.pi, 60, endpoint=False)
+    circle = StarCurve((0.0, 0.0), np.sin(turn), np.cos(turn))
+    xi, eta = circle.hold(2 * np.sin(turn), 0.5 * np.cos(turn))
+    assert (np.diff(np.unwrap(np.arctan2(xi, eta))) >= -1e-12).all() and len(xi) == 64
+    assert np.abs(np.hypot(xi, eta)[np.abs(xi) > 0.9] - 1).max() < 0.01
+    inside = np.hypot(xi, eta) < 0.99
+    assert (xi[inside] / 2) ** 2 + (2 * eta[inside]) ** 2 == pytest.approx(1)

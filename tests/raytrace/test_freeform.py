@@ -289,3 +289,11 @@ def test_drawings_and_3d_show_the_sag_itself():
     (glass,) = elements(lens)
     points = glass.mesh.points[: len(glass.mesh.points) // 2]
     assert points[:, 2] - 3.0 == pytest.approx(front.sag(points[:, 0], points[:, 1]), abs=1e-14)
+
+
+@pytest.mark.parametrize(("kind", "last"), [("XYP", 66), ("ZRN", 67), ("ZFR", 40)])
+def test_a_coefficient_of_code_v_beyond_its_last_is_refused(kind, last):
+    """Ten degrees of x and y make 65 terms from C2 on; so begin the 66 of Zernike's orders, and Fringe's 37 at C4."""
+    read_seq(f"SPS {kind} 4.0\nSCO NRADIUS 4.0\nSCO C{last} 1e-9")
+    with pytest.raises(LensFileError, match="is not known"):
+        read_seq(f"SPS {kind} 4.0\nSCO NRADIUS 4.0\nSCO C{last + 1} 1e-9")

@@ -8,6 +8,7 @@ import pytest
 from p2sf.errors import GeometryError, RequestError
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, indices, with_f_number, with_mask, with_sensor
+from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.metrics.frequency_pupil import pupil_of_rays
@@ -20,7 +21,7 @@ from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.trace import trace
 from p2sf.tolerance.builds import Builds, evaluate, simulate
 from p2sf.tolerance.criteria import harms, share_within
-from p2sf.tolerance.differentials import NODES, differentials, usual_sources
+from p2sf.tolerance.differentials import NODES, _rigid, differentials, usual_sources
 from p2sf.tolerance.errors_of_build import GRADES, IRREGULAR, Tolerance, build, usual_tolerances
 from p2sf.tolerance.single import sensitivities
 from p2sf.tolerance.strehl import strehl_ratios
@@ -474,3 +475,15 @@ def test_a_tilt_moves_the_peak_and_takes_nothing_from_it(away):
     for waves in (tilt, tilt + 0.05 * (x**2 + y**2)):
         still = abs((weight * np.exp(2j * np.pi * (waves - tilt))).sum()) ** 2
         assert strehl_ratios(waves[None], weight, np.stack([x, y])) == pytest.approx([still], abs=1e-5)
+
+
+@pytest.mark.parametrize("kind", ["tilt_x", "tilt_y"])
+def test_a_piece_that_stands_tilted_turns_about_the_axes_of_its_mount(kind):
+    """A degree more of one of its angles, by the difference of two placements: what a vertex does, and the rotation."""
+    own, step = Placement(tilt_x_deg=30.0), 1e-4
+    vertex, still = np.array([1.0, 2.0, 3.0]), own.motion.rotation
+    turned = replace(own, **{f"{kind}_deg": getattr(own, f"{kind}_deg") + step}).motion.rotation
+    small = (turned @ still.T - np.eye(3)) / step
+    found = _rigid(vertex, Tolerance(kind, 1, 1, 1.0), Placement().motion, own)
+    assert found[:3] == pytest.approx(small @ vertex, abs=1e-6)
+    assert found[3:] == pytest.approx([small[2, 1], small[0, 2], small[1, 0]], abs=1e-6)

@@ -454,3 +454,13 @@ def test_large_type_has_large_handles(window, chart, kind, percent):
     for part, held in ((0.9, True), (1.1, False)):
         found = chart.drag.find(chart.live, at - QPointF(part * reach, 0))
         assert (found is not None and found.kind == kind) == held
+
+
+def test_an_edge_that_is_dragged_lies_under_the_pointer_by_the_surface_s_own_conic(window):
+    start = with_lens(FIRST, "asphere")
+    lens = prescription(start)
+    number = next(k for k, surface in enumerate(lens.surfaces, 1) if surface.conic and surface.curvature)
+    grip = next(grip for grip in surface_grips(lens, (number, number)) if grip.kind == "edge")
+    away = 0.8 * (grip.z - vertices(lens)[number - 1])
+    surface = prescription(drag(grip, start, vertices(lens)[number - 1] + away, grip.y)).surfaces[number - 1]
+    assert float(surface.sag(0.0, grip.y)) == pytest.approx(away, rel=1e-3)
