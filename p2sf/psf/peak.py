@@ -28,7 +28,7 @@ MOST_MAXIMA = 256  # that are interpolated
 TOO_CLOSE = 2e-3  # of the highest: maxima that interpolation, good to 5e-4, and rounding do not tell apart
 ROUGHLY = 0.1  # the same of waves that only resemble those of the picture
 MOST_CLIMBS = 4  # from those
-MOST_IN_PREVIEW = 2**12  # most waves for a climb in a preview, which otherwise takes its best sample
+MOST_IN_PREVIEW = 2**12  # most waves for a climb in a preview, which otherwise takes the interpolated one
 CLIMB_STEPS = 12  # of Newton's method
 MOST_WHILE_CLIMBING = 2**22  # waves times steps, beyond which fewer steps have to do: a second for all
 MANY_WAVES = 2**14  # from which on plane ones say where to climb: of a small Fresnel number there are fewer
@@ -64,14 +64,14 @@ def peak_of(
 
     ``waves``: what was sampled. ``reaching`` returns waves that resolve the phase up to a distance from the chief ray,
     µm, or None if these are too many. The peak is sought wherever rays land, also outside the window, unless the window
-    has a dark border or too many waves are needed. A "preview" climbs from the best sample only.
+    has a dark border or too many waves are needed. A "preview" climbs from the best place in the window only.
     """
     axis, brightest = centred_axis(intensity.shape[-1], pixel_um), sampled_peak(intensity, pixel_um)
     if not waves.spread:  # a single wave has uniform intensity
         return brightest
     if quality == "preview":
-        few = waves.fx.size <= MOST_IN_PREVIEW
-        return climb(waves, brightest.x_um, brightest.y_um, quality) if few else brightest
+        top = _tops(intensity, axis, waves.spread)[0] if _determined(pixel_um, waves.spread) else brightest
+        return climb(waves, top.x_um, top.y_um, quality) if waves.fx.size <= MOST_IN_PREVIEW else top
     half = waves.blur_um + BORDER / waves.spread
     held = half <= -axis[0] or _border(intensity) < DARK * intensity.max()
     if held and _determined(pixel_um, waves.spread):

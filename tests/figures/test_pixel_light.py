@@ -75,4 +75,5 @@ def test_samples_are_closer_than_the_band_asks_and_points_stay_points():
         assert grid.side * grid.pitch_um > 10 * pixel_um
     assert fine_grid(9, 1.0, FINEST_UM) is None and fine_grid(9, 0.5, FINEST_UM) is None
     assert fine_grid(9, 0.5, FINEST_UM, narrow_too=True).side < 41
-    assert fine_grid(256, 6.0, FINEST_UM).side <= LARGEST and fine_grid(256, 9.0, FINEST_UM) is None
+    assert fine_grid(256, 6.0, FINEST_UM).per_pixel >= 1.2 * 6.0 and fine_grid(256, 6.0, FINEST_UM).side <= LARGEST
+    assert fine_grid(64, 30.0, FINEST_UM).per_pixel == 30.0 and fine_grid(256, 9.0, FINEST_UM) is None
