@@ -1,6 +1,7 @@
 """One point: the model against the library's own PSFs, its derivatives and symmetries, and fits of noisy pictures."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,11 +10,13 @@ from p2sf.errors import RequestError
 from p2sf.lens.lens import with_aim
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
+from p2sf.measure.fitting import point_fit
 from p2sf.measure.fitting.point_fit import fit_point
 from p2sf.measure.fitting.point_model import PictureOptics, PixelSum
 from p2sf.measure.fitting.point_problem import PointPicture, Problem
 from p2sf.measure.fitting.pupil_model import pupil_model
 from p2sf.measure.fitting.pupil_nodes import paraxial_nodes
+from p2sf.measure.fitting.starting_values import starts
 from p2sf.measure.frame import Frame, FrameGeometry
 from p2sf.measure.points import find_points
 from p2sf.paraxial.seidel import coefficients
@@ -294,3 +297,23 @@ def test_what_cannot_be_fitted_is_refused():
         fit_point([empty], OPTICS, "27")
     with pytest.raises(RequestError, match="linear"):
         fit_point([empty], OPTICS, loss="quadratic")
+
+
+def test_starts_from_each_of_two_pictures_explain_it_alone_in_both_ways(monkeypatch):
+    """By the numbers that are found of it, here those that it was made of, and by their twin of the other sign."""
+    rng, foci, six = np.random.default_rng(1), (0.0, 1.0), np.array([0.5, 0.4, -0.3, 0.6])
+    nodes = paraxial_nodes((24, 64), OPTICS.cycles)
+    waves, square = six @ pupil_model("seidel").waves(nodes.xi, nodes.eta), nodes.xi**2 + nodes.eta**2
+    lights = [PixelSum(nodes, (14, 14), OPTICS).light(waves + focus * square) for focus in foci]
+    made = [picture_of(light, rng, focus) for light, focus in zip(lights, foci, strict=True)]
+    alone = [SimpleNamespace(unknowns=unknowns(six, flux=1000 / light.max(), background=100.0)) for light in lights]
+    monkeypatch.setattr(point_fit, "_six", lambda pictures, *_: [alone[made.index(pictures[0])]])
+    found = point_fit._from_each(made, OPTICS, 0.0, "linear", starts(made, OPTICS, 0.0, 6)[0])
+    assert len(found) == 4
+    for number, start in enumerate(found):
+        frames, picture = start[4:].reshape(2, -1), number // 2
+        one = Problem([made[picture]], OPTICS, pupil_model("seidel"), 0.0)
+        own = np.concatenate([start[:4], frames[picture]])
+        one.prepare(own)
+        assert np.square(one.residuals(own)).sum() < 1.3 * one.freedom
+        assert frames[0, :2] == pytest.approx(frames[1, :2]) and np.sign(start[0]) == (1, -1)[number % 2]

@@ -9,7 +9,7 @@ import pytest
 from p2sf.cli import main
 from p2sf.lens.lens import with_aim
 from p2sf.studies import validate
-from p2sf.studies.listings import hubble, singlet
+from p2sf.studies.listings import edges, hubble, singlet
 from p2sf.studies.validate import (
     AGREES,
     DIFFERS,
@@ -128,3 +128,9 @@ def test_the_contrast_of_a_clear_disc_is_the_area_that_two_discs_share():
         both = across & (np.hypot(*np.meshgrid(line + share, line)) <= 1)
         found = singlet.diffraction_limit(np.array([share * 100.0]), 10.0)
         assert found[0] == pytest.approx(both.sum() / (np.hypot(*np.meshgrid(line, line)) <= 1).sum(), abs=2e-3)
+
+
+def test_the_plane_of_the_stop_of_a_listed_lens_is_flat():
+    for name in edges.numbers_of("edges"):
+        lens = edges.lens_of(name)
+        assert lens.surfaces[lens.stop_surface - 1].vertex_curvature == 0.0

@@ -177,3 +177,19 @@ def test_a_picture_runs_to_the_edges_under_its_axes(qapp):
     assert contrast(shown.chart.axes_theme.text, veiled) >= 7
     shown.chart.bleed(False)
     assert shown.chart.area == within
+
+
+@pytest.mark.parametrize("width", [1.0, 3.0, 5.0])
+def test_a_line_of_any_width_has_its_points_in_its_middle(chart, width):
+    chart.restyle(LIGHT)
+    bare = painted_rows(chart)
+    chart.add_curve("chief", width).set_data([-2.0, 3.0], [0.3, 0.3])
+    ink = np.abs(painted_rows(chart) - bare)
+    assert (np.arange(ink.size) + 0.5) @ ink / ink.sum() == pytest.approx(float(chart.to_pixels(0.0, 0.3)[1]), abs=0.6)
+
+
+def painted_rows(chart) -> np.ndarray:
+    """Return how bright the column is that stands over x = 1.3, downwards."""
+    image = chart.grab().toImage()
+    column = round(float(chart.to_pixels(1.3, 0.0)[0]))
+    return np.array([image.pixelColor(column, row).lightnessF() for row in range(image.height())])

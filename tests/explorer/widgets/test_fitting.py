@@ -154,3 +154,13 @@ def test_the_picture_of_image_takes_the_width_of_a_narrow_stage(window, qtbot):
     panel = window.panels["image"]
     qtbot.waitUntil(lambda: panel.split_view.width() > 0.9 * panel.widget.width())
     assert panel.look.width() > panel.look.fontMetrics().horizontalAdvance(panel.look.currentText())
+
+
+def test_every_row_of_a_table_of_facts_is_written_in_its_own_line(qtbot):
+    table = FactTable()
+    qtbot.addWidget(table)
+    table.show_rows(tuple((f"name {k}", Message("value"), "what it is") for k in range(4)))
+    table.resize(300, table.height())
+    image = table.grab().toImage()
+    dark = [min(image.pixelColor(x, y).lightness() for x in range(300)) for y in range(image.height())]
+    assert all(min(dark[round(k * table.row) : round((k + 1) * table.row)]) < 128 for k in range(4))
