@@ -12,6 +12,8 @@ from p2sf.api import zernike as zernike
 from p2sf.camera import Camera as Camera
 from p2sf.database.files.building import build_database as build_database
 from p2sf.database.files.provenance import Stored as Stored
+from p2sf.disc.mask import PupilMap as PupilMap
+from p2sf.disc.mask import PupilMask as PupilMask
 from p2sf.errors import ClusterError as ClusterError
 from p2sf.errors import DatabaseError as DatabaseError
 from p2sf.errors import ExportError as ExportError
@@ -57,9 +59,7 @@ from p2sf.psf.from_opd import psf_of_opd as psf_of_opd
 from p2sf.psf.methods import Choice as Choice
 from p2sf.psf.reading import read_psf as read_psf
 from p2sf.psf.result import Psf as Psf
-from p2sf.pupil.mask import PupilMap as PupilMap
-from p2sf.pupil.mask import PupilMask as PupilMask
-from p2sf.raytrace.zernike_fit import ZernikeFit as ZernikeFit
+from p2sf.pupil.zernike_fit import ZernikeFit as ZernikeFit
 from p2sf.scene.planning.plan import Plan as Plan
 from p2sf.scene.planning.plan import plan as plan
 from p2sf.scene.scene import Channel as Channel

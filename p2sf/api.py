@@ -24,12 +24,12 @@ from p2sf.setting import AS_IN_FILE, AimChoice, CameraData, StopChoice, set_up_s
 from p2sf.threads import using_threads
 
 if TYPE_CHECKING:
+    from p2sf.disc.zernike_terms import ZernikeOrder
     from p2sf.figures.measures import Energy, LineSpread, Mtf
     from p2sf.metrics.measures import PupilPart
     from p2sf.psf.methods import Choice
     from p2sf.psf.result import Psf
-    from p2sf.pupil.zernike_terms import ZernikeOrder
-    from p2sf.raytrace.zernike_fit import ZernikeFit
+    from p2sf.pupil.zernike_fit import ZernikeFit
 
 Path = str | os.PathLike[str]
 Method = Literal["auto", "seidel", "fitted", "traced", "huygens", "spherical", "gaussian"]
@@ -234,7 +234,7 @@ def zernike(
     >>> found.terms[6].name, round(float(found.waves[6]), 3), round(found.rms, 3)
     ('coma', -0.057, 0.138)
     """
-    from p2sf.raytrace.zernike_fit import zernike_fit
+    from p2sf.pupil.zernike_fit import zernike_fit
 
     setup = set_up_source(lens, source, camera)
     return zernike_fit(setup.lens, setup.source, basis, terms, clip)

@@ -44,7 +44,7 @@ class Camera(CameraData):
     zoom, focus_position, focus_mm, sensor_shift_um, f_number, stop, aim, absorption
         How the lens is set, see `p2sf.setting.LensSettings`.
     obscuration, obscuration_x, obscuration_y, vanes, vane_width, vane_angle_deg, blades, roundness, blade_angle_deg
-        The mask in its stop, see `p2sf.pupil.mask.MaskSettings`, also for ``apodisation``, ``apodisation_power`` and
+        The mask in its stop, see `p2sf.disc.mask.MaskSettings`, also for ``apodisation``, ``apodisation_power`` and
         ``cubic_um``.
 
     Raises

@@ -345,7 +345,7 @@ MASK_PARAMETERS = (
         labels=(0, -10, 10),
     ),
 )
-"""Parameters of the pupil mask, fields of both `p2sf.pupil.mask.PupilMask` and `p2sf.camera.Camera`."""
+"""Parameters of the pupil mask, fields of both `p2sf.disc.mask.PupilMask` and `p2sf.camera.Camera`."""
 ELSEWHERE = (
     Parameter("depths_mm", "Depths", "mm"),
     Parameter("fields_deg", "Fields", "°"),

@@ -16,6 +16,7 @@ import numpy as np
 
 from p2sf.arguments import check_fields
 from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope
+from p2sf.disc.mask import CLEAR, MaskSettings, PupilMask
 from p2sf.errors import GlassError, RequestError
 from p2sf.lens.lens import (
     Aperture,
@@ -47,7 +48,6 @@ from p2sf.paraxial.pupils import (
     paraxial_rays,
     rim_radii,
 )
-from p2sf.pupil.mask import CLEAR, MaskSettings, PupilMask
 
 StopChoice = Literal["file", "auto"]
 AimChoice = Literal["stop", "paraxial", "real"]

@@ -30,9 +30,9 @@ if TYPE_CHECKING:
     import xarray
 
     from p2sf.api import Method, PupilMethod
+    from p2sf.disc.zernike_terms import ZernikeOrder
     from p2sf.metrics.measures import PupilPart
     from p2sf.psf.result import Psf
-    from p2sf.pupil.zernike_terms import ZernikeOrder
 
 OF_THE_SOURCE = "depth_mm", "field_x_deg", "field_deg", "wavelength_nm"
 SWEPT = (*(each.name for each in (*CAMERA_PARAMETERS, *MASK_PARAMETERS)), *OF_THE_SOURCE)
@@ -229,7 +229,7 @@ class Sweep:
 
     def zernike(self, basis: "ZernikeOrder" = "noll", terms: int = 37, *, clip: bool = False) -> NamedArrays:
         """Return what `p2sf.zernike` does: ``waves`` (…, term), ``rms_waves``, ``share``, ``rms``, ``marechal``."""
-        from p2sf.pupil.zernike_terms import zernike_terms
+        from p2sf.disc.zernike_terms import zernike_terms
 
         known = zernike_terms(basis, terms)
         found = self._over(partial(_zernike_of, basis=basis, terms=terms, clip=clip))
@@ -413,7 +413,7 @@ def _six_of(point: SweepPoint) -> Figures:
 
 
 def _zernike_of(point: SweepPoint, basis: "ZernikeOrder", terms: int, clip: bool) -> Figures:
-    from p2sf.raytrace.zernike_fit import zernike_fit
+    from p2sf.pupil.zernike_fit import zernike_fit
 
     found = zernike_fit(point.setup.lens, point.setup.source, basis, terms, clip)
     return vars(found) | {"marechal": found.marechal}

@@ -14,12 +14,12 @@ import p2sf
 import p2sf_explorer
 from p2sf.camera import Camera
 from p2sf.cli import main
+from p2sf.disc.mask import MaskSettings, PupilMask
 from p2sf.errors import RequestError
 from p2sf.figures.psf_data import Later
 from p2sf.lens.lens import with_absorption, with_aim, with_f_number, with_mask
 from p2sf.lensfile.library import find_lens
 from p2sf.parameters import CAMERA_PARAMETERS, MASK_PARAMETERS, PARAMETERS, SOURCE_PARAMETERS
-from p2sf.pupil.mask import MaskSettings, PupilMask
 from p2sf.scene.files import KEYS
 from p2sf.scene.scene import Scene
 from p2sf.setting import (
@@ -38,7 +38,7 @@ from p2sf_explorer.state.limits import RANGES, SLIDERS
 from p2sf_explorer.state.link import link, state_of_link
 from p2sf_explorer.state.state import Optics, State, change, entry, new_state
 from p2sf_explorer.state.state_files import state_from_json, state_to_dict, state_to_json
-from tests.pupil.test_mask_table import SAMPLES as MASKS
+from tests.disc.test_mask_table import SAMPLES as MASKS
 from tests.support.lenses.zooms import focusing_zoom
 
 HANDBOOK = Path(p2sf_explorer.__file__).parent / "handbook"

@@ -15,10 +15,11 @@ MODULES = tuple(module_paths(ROOT))
 LAYERS = (
     "p2sf.conventions p2sf.messages p2sf.errors p2sf.arguments p2sf.parameters p2sf.spans p2sf.threads p2sf.version "
     "p2sf.html p2sf.named_arrays p2sf.cluster",
-    "p2sf.files p2sf.glass p2sf.colour p2sf.pupil",
+    "p2sf.files p2sf.glass p2sf.colour p2sf.disc",
     "p2sf.lens",
     "p2sf.paraxial",
     "p2sf.raytrace",
+    "p2sf.pupil",
     "p2sf.setting p2sf.lensfile p2sf.figures",
     "p2sf.io",
     "p2sf.psf p2sf.pixel_kernels",

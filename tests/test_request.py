@@ -13,8 +13,8 @@ from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.first_order import cardinal_points, image_distance
 from p2sf.paraxial.pupils import f_number, find_stop, pupils
 from p2sf.paraxial.seidel import coefficients
+from p2sf.pupil.zernike_fit import pupil_opd
 from p2sf.raytrace.pencil import displayed_opd
-from p2sf.raytrace.zernike_fit import pupil_opd
 from p2sf.setting import Request, set_up
 from p2sf_explorer.state.scales import Vergence
 from tests.support.lenses.mirrors import mirror

@@ -148,7 +148,7 @@ def _from_coefficients(setup: Setup, picture: Picture) -> Psf:
     from p2sf.paraxial.seidel import check_seidel, coefficients
     from p2sf.psf.pixel_integrals import integrate
     from p2sf.psf.seidel import seidel_psf, suitable_pixel_um
-    from p2sf.raytrace.seen_mask import mask_seen
+    from p2sf.pupil.seen_mask import mask_seen
 
     source = setup.source
     check_seidel(setup.lens)

@@ -11,10 +11,10 @@ from p2sf.cli.cautions import open_lens
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, check_output
 from p2sf.cli.screen import FILLED, Row, heading, print_json, print_table, warn
 from p2sf.cli.spots import Clip
+from p2sf.disc.zernike_terms import ZernikeOrder
 from p2sf.files.writing import write_beside
 from p2sf.io.record import csv_head, describe
-from p2sf.pupil.zernike_terms import ZernikeOrder
-from p2sf.raytrace.zernike_fit import USUAL_TERMS, ZernikeFit, zernike_fit
+from p2sf.pupil.zernike_fit import USUAL_TERMS, ZernikeFit, zernike_fit
 from p2sf.setting import set_up
 
 Basis = Annotated[ZernikeOrder, Parameter(help="Noll's order, waves RMS, or the Fringe order, peak waves.")]

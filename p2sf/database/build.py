@@ -8,14 +8,14 @@ from p2sf.database.departure import cell_middles, departures, largest, path_scal
 from p2sf.database.exact import ExactDatabase, exact_series
 from p2sf.database.grid import RULES, GridDatabase, traced_grid
 from p2sf.database.space import Space
+from p2sf.disc.mask import PupilMask
 from p2sf.errors import DatabaseError
 from p2sf.lens.lens import Lens, check_aligned
 from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message
 from p2sf.paraxial.pupils import Stop, find_stop
 from p2sf.paraxial.seidel import coefficients
-from p2sf.pupil.mask import PupilMask
-from p2sf.raytrace.seen_mask import mask_seen
+from p2sf.pupil.seen_mask import mask_seen
 from p2sf.threads import one_blas_thread
 
 INTERPOLANTS = ("exact", *RULES)

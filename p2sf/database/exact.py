@@ -19,11 +19,11 @@ from numpy.typing import ArrayLike
 from p2sf.conventions import vergence
 from p2sf.database.parts import Numbers, Parts, assemble
 from p2sf.database.space import Space
+from p2sf.disc.mask import CLEAR, PupilMask
 from p2sf.errors import DatabaseError
 from p2sf.lens.lens import Lens
 from p2sf.paraxial.pupils import ParaxialRays, Stop, paraxial_rays
 from p2sf.paraxial.seidel import Coefficients, seidel_sums, sensor_sums
-from p2sf.pupil.mask import CLEAR, PupilMask
 
 # Numbers per wavelength of each part: a polynomial's degree in s, plus one.
 LENGTHS = {

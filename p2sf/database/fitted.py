@@ -20,17 +20,17 @@ from p2sf.conventions import depth_of, vergence
 from p2sf.database.exact import ExactDatabase, chebyshev_terms
 from p2sf.database.render import Points, Sampling, critical_pixel_um
 from p2sf.database.space import Space
+from p2sf.disc.basis import Gradient, PupilValues
+from p2sf.disc.domain import HALF, WHOLE, PupilDomain
+from p2sf.disc.mask import PupilMask
 from p2sf.lens.source import Source, source_at
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.psf.fitted import psf_of_fit, sum_fit
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import suitable_pixel_um
-from p2sf.pupil.basis import Gradient, PupilValues
-from p2sf.pupil.domain import HALF, WHOLE, PupilDomain
-from p2sf.pupil.mask import PupilMask
-from p2sf.raytrace.fit import UNIFORM, FittedPencil, Level, level_rays, phase_slopes
+from p2sf.pupil.fit import UNIFORM, FittedPencil, Level, level_rays, phase_slopes
+from p2sf.pupil.seen_mask import with_slopes
 from p2sf.raytrace.ray_field import COARSE, SMALLEST, Steepness, map_slopes
-from p2sf.raytrace.seen_mask import with_slopes
 from p2sf.threads import map_threads, one_blas_thread
 
 

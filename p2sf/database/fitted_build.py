@@ -10,14 +10,14 @@ from p2sf.database.build import build_exact
 from p2sf.database.departure import scatter
 from p2sf.database.fitted import Axes, FittedDatabase, axes_of, powers, split
 from p2sf.database.space import Space
+from p2sf.disc.mask import CLEAR
 from p2sf.errors import DatabaseError
 from p2sf.lens.lens import Lens, check_aligned, with_mask
 from p2sf.lens.misalignment import average_azimuths
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import Stop, find_stop
-from p2sf.pupil.mask import CLEAR
-from p2sf.raytrace.fit import FittedPencil, Level, fit, fit_rays, level_rays, levels, levels_for, pencil_forms
+from p2sf.pupil.fit import FittedPencil, Level, fit, fit_rays, level_rays, levels, levels_for, pencil_forms
 from p2sf.raytrace.pencil import Rays, all_reaching, on_sensor
 from p2sf.threads import one_blas_thread
 

@@ -18,11 +18,11 @@ from p2sf.conventions import vergence
 from p2sf.database.parts import KINDS, PARTS, Numbers, Parts, assemble, traced_parts
 from p2sf.database.space import ROUNDING, Space
 from p2sf.database.stencil import NodeAxis, Stencil, Table, cross, place_pairs, weighted_sum
+from p2sf.disc.mask import CLEAR, PupilMask
 from p2sf.errors import DatabaseError
 from p2sf.lens.lens import Lens
 from p2sf.paraxial.pupils import Stop
 from p2sf.paraxial.seidel import Coefficients
-from p2sf.pupil.mask import CLEAR, PupilMask
 
 
 class Depth(NamedTuple):

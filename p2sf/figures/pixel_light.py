@@ -13,7 +13,7 @@ from math import ceil
 import numpy as np
 
 from p2sf.conventions import write_protect
-from p2sf.pupil.quadrature import gauss_legendre
+from p2sf.disc.quadrature import gauss_legendre
 
 ROUNDING = 1e-9
 LARGEST = 2048  # fine samples a side: beyond, sums take minutes

@@ -10,13 +10,13 @@ from math import ceil, pi
 
 import numpy as np
 
+from p2sf.disc.mask_cells import wings
 from p2sf.image.lattice import pad_to_largest
 from p2sf.image.region import Region, whole
 from p2sf.metrics.tails import FAINTEST, FARTHEST
 from p2sf.pixel_kernels.channel import RAYS, Colour, Kernels, Points
 from p2sf.pixel_kernels.pixels import LARGEST_WINDOW, samples_each
 from p2sf.pixel_kernels.pupil_stack import PupilStack
-from p2sf.pupil.mask_cells import wings
 from p2sf.scene.planning.plan import Plan
 
 FINENESS, MARGIN = 2.0, 1.0  # of the sum of waves: every fringe, and a window four times as wide as what is kept

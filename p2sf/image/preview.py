@@ -14,7 +14,7 @@ from p2sf.lens.lens import Lens
 from p2sf.pixel_kernels.channel import RAYS, Light, Recipe
 from p2sf.pixel_kernels.pixels import LARGEST_WINDOW, samples_across
 from p2sf.pixel_kernels.pupil_stack import PixelPupil
-from p2sf.raytrace.fit import levels_for
+from p2sf.pupil.fit import levels_for
 from p2sf.scene.field_area import field_area
 from p2sf.scene.planning.bounds import check_colours
 from p2sf.scene.planning.cost import Cost

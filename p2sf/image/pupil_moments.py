@@ -16,12 +16,12 @@ from typing import NamedTuple
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM
+from p2sf.disc.quadrature import whole_disc
 from p2sf.image.lattice import Lattice
 from p2sf.image.region import Region
 from p2sf.pixel_kernels.nodes import hats, nodes_along
-from p2sf.pupil.quadrature import whole_disc
+from p2sf.pupil.vignetting import pupil_nodes
 from p2sf.raytrace.pencil import rays_through
-from p2sf.raytrace.vignetting import pupil_nodes
 from p2sf.scene.planning.plan import Plan
 
 NODES = 4, 12  # over the pupil, for moments of the second order, which are means of smooth functions

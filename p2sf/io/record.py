@@ -8,12 +8,12 @@ from functools import lru_cache
 from typing import Any
 
 from p2sf.conventions import NM_PER_UM, depth_of
+from p2sf.disc.mask import CLEAR, PupilMask
 from p2sf.figures.psf_data import PsfData
 from p2sf.figures.record import true_of_all
 from p2sf.files.writing import plain
 from p2sf.lens.lens import Lens
 from p2sf.paraxial.pupils import Stop, f_number
-from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.raytrace.focusing import focused_vergence
 from p2sf.setting import Setup
 

@@ -14,9 +14,9 @@ from typing import ClassVar, Self
 import numpy as np
 
 from p2sf.conventions import FloatOrArray
+from p2sf.disc.zernike_terms import ZernikeOrder, ZernikeTerm, zernike_terms
 from p2sf.lens.shapes import RadialPolynomial, RadialShape, Series, Shape, clenshaw, jacobi_steps
 from p2sf.messages import Message
-from p2sf.pupil.zernike_terms import ZernikeOrder, ZernikeTerm, zernike_terms
 
 Monomials = dict[tuple[int, int], float]  # coefficients by the exponents of x and y
 

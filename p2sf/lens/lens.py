@@ -12,6 +12,8 @@ from numpy.typing import ArrayLike
 
 from p2sf.arguments import NUMBERS, check_arguments, check_fields
 from p2sf.conventions import FARTHEST_MM, NM_PER_UM, FloatOrArray, angle_from_axis
+from p2sf.disc.domain import PupilDomain, domain_of
+from p2sf.disc.mask import CLEAR, PupilMask
 from p2sf.errors import GeometryError, RequestError
 from p2sf.glass.media import AIR, MIRROR, Medium, parse_medium, transmittance_of
 from p2sf.lens.grating import Phase
@@ -23,8 +25,6 @@ from p2sf.lens.shapes import Conic, EvenTerms, Part, RadialPart, SagAndSlope, Sh
 from p2sf.lens.transmission import Transmission
 from p2sf.messages import Alternatives, Message
 from p2sf.parameters import FASTEST, SLOWEST
-from p2sf.pupil.domain import PupilDomain, domain_of
-from p2sf.pupil.mask import CLEAR, PupilMask
 
 if TYPE_CHECKING:
     from p2sf.lens.positions import Positions

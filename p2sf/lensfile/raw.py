@@ -6,6 +6,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
+from p2sf.disc.mask import CLEAR, PupilMask
 from p2sf.errors import RequestError
 from p2sf.glass.media import Medium
 from p2sf.lens.grating import Phase
@@ -16,7 +17,6 @@ from p2sf.lens.shapes import Shape
 from p2sf.lensfile.source_text import LensText
 from p2sf.lensfile.stated import Stated, StatedKind
 from p2sf.messages import Message
-from p2sf.pupil.mask import CLEAR, PupilMask
 
 RawApertureKind = Literal[
     "stop_semi_diameter",

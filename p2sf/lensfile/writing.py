@@ -10,6 +10,7 @@ from typing import Any
 
 from p2sf.arguments import check_arguments
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
+from p2sf.disc.mask import PupilMask
 from p2sf.errors import GeometryError, LensFileError
 from p2sf.files.writing import check_own
 from p2sf.glass.media import AIR, MIRROR, CatalogueGlass, ConstantIndex, Medium, ModelGlass
@@ -34,7 +35,6 @@ from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.messages import Message
 from p2sf.paraxial.positions import matches_columns
 from p2sf.paraxial.pupils import stop_rim
-from p2sf.pupil.mask import PupilMask
 from p2sf.raytrace.focusing import focused_distance, object_distance
 
 OWN_CATALOGUE = "glasses of the lens of this name, written by p2sf"

@@ -15,7 +15,7 @@ from p2sf.measure.fitting.frame_terms import chief_rays
 from p2sf.measure.fitting.point_model import PictureOptics, PixelSum
 from p2sf.measure.fitting.pupil_nodes import counts_for, lens_nodes
 from p2sf.measure.frame import Frame, FrameGeometry
-from p2sf.raytrace.fit import FittedPencil, fit
+from p2sf.pupil.fit import FittedPencil, fit
 from p2sf.raytrace.focusing import object_distance
 
 RESIDUAL_WAVES = 2e-4  # of the fit to rays

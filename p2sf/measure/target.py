@@ -15,13 +15,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from p2sf.disc.mask import CLEAR
 from p2sf.errors import RequestError
 from p2sf.files.reading import read_text
 from p2sf.lens.lens import Lens, with_mask
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import field_from_object_height
 from p2sf.pixel_kernels.sensor_points import chief_heights
-from p2sf.pupil.mask import CLEAR
 from p2sf.raytrace.aiming import Sources
 
 if TYPE_CHECKING:

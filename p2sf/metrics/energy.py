@@ -17,14 +17,14 @@ import numpy as np
 from numpy.polynomial.chebyshev import chebint, chebval, chebvander
 
 from p2sf.conventions import write_protect
+from p2sf.disc.domain import PupilDomain
+from p2sf.disc.mask import mask_slopes
+from p2sf.disc.open_part import open_intervals, places_between
+from p2sf.disc.phasors import cosine_sine
+from p2sf.disc.quadrature import MOST_KEPT, even_count, gauss_legendre
 from p2sf.errors import SamplingError
 from p2sf.metrics.frequency_pupil import FrequencyPupil, landing_um, reach_of
 from p2sf.metrics.mask_lines import box_edges
-from p2sf.pupil.domain import PupilDomain
-from p2sf.pupil.mask import mask_slopes
-from p2sf.pupil.open_part import open_intervals, places_between
-from p2sf.pupil.phasors import cosine_sine
-from p2sf.pupil.quadrature import MOST_KEPT, even_count, gauss_legendre
 
 RADII = 128  # of a tabulated curve
 BEYOND = 6.0  # λ/NA beyond the outermost ray up to which light is summed; farther out there are the wings of an edge

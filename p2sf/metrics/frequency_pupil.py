@@ -21,24 +21,24 @@ from numpy.fft import irfft, rfft
 from numpy.polynomial.chebyshev import chebder, chebvander
 
 from p2sf.conventions import write_protect
+from p2sf.disc.domain import HALF, WHOLE, ClearNodes, PupilDomain
+from p2sf.disc.mask import CLEAR, PupilMask
+from p2sf.disc.open_part import WHOLE_DISC, PupilEdges
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
+from p2sf.metrics.spot import Landing, landing
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import wavefront
-from p2sf.psf.smooth_pupil import all_reach
 from p2sf.psf.spherical import beyond_plane_waves
-from p2sf.pupil.domain import HALF, WHOLE, ClearNodes, PupilDomain
-from p2sf.pupil.mask import CLEAR, PupilMask
-from p2sf.pupil.open_part import WHOLE_DISC, PupilEdges
-from p2sf.raytrace.clear_pieces import without_holes
+from p2sf.pupil.clear_pieces import without_holes
+from p2sf.pupil.fit import FittedPencil
+from p2sf.pupil.seen_mask import mask_seen
+from p2sf.pupil.smooth_pupil import all_reach
+from p2sf.pupil.vignetting import clear_nodes, clear_outline, pupil_edges, whole_nodes
 from p2sf.raytrace.exit_sphere import ExitSphere
-from p2sf.raytrace.fit import FittedPencil
 from p2sf.raytrace.pencil import hexapolar, pencil
 from p2sf.raytrace.ray_field import COLLIMATED, ONE_DIRECTION
-from p2sf.raytrace.seen_mask import mask_seen
-from p2sf.raytrace.spot import Landing, landing
-from p2sf.raytrace.vignetting import clear_nodes, clear_outline, pupil_edges, whole_nodes
 
 # RMS error of phase and density from which a higher order is tried: the transfer function's is at most 2π√2 times it.
 RESIDUAL_WAVES = 5e-5

@@ -12,15 +12,15 @@ from math import ceil, hypot
 
 import numpy as np
 
+from p2sf.disc.domain import WHOLE
+from p2sf.disc.mask import mask_slopes
+from p2sf.disc.open_part import open_intervals, places_between
+from p2sf.disc.phasors import cosine_sine
+from p2sf.disc.quadrature import even_count
 from p2sf.errors import Cancelled, SamplingError
 from p2sf.metrics.frequency_pupil import FrequencyPupil, reach_of
 from p2sf.metrics.line_ends import END, interval_weights
 from p2sf.metrics.mask_lines import box_edges, light_on_grid
-from p2sf.pupil.domain import WHOLE
-from p2sf.pupil.mask import mask_slopes
-from p2sf.pupil.open_part import open_intervals, places_between
-from p2sf.pupil.phasors import cosine_sine
-from p2sf.pupil.quadrature import even_count
 
 FEWEST_ROWS, ROWS_PER_WAVE, ROWS_OF_RING = 320, 3.0, 160
 NARROW = 0.35  # power of a ring's width with which the number of lines grows

@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike
 from p2sf.arguments import number_list
 from p2sf.colour.spectrum import Spectrum
 from p2sf.conventions import UM_PER_MM
+from p2sf.disc.mask import CLEAR
 from p2sf.errors import GeometryError, RequestError
 from p2sf.figures.measures import PARTS, Energy, LineSpread, Mtf
 from p2sf.lens.lens import Lens
@@ -38,10 +39,9 @@ from p2sf.paraxial.seidel import Coefficients, check_seidel, coefficients
 from p2sf.psf.methods import AUTO, choose, seidel_error
 from p2sf.psf.prediction import SAFETY
 from p2sf.psf.seidel import check_image
-from p2sf.pupil.mask import CLEAR
+from p2sf.pupil.fit import fit
+from p2sf.pupil.seen_mask import mask_seen
 from p2sf.raytrace.exit_sphere import exit_sphere
-from p2sf.raytrace.fit import fit
-from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.threads import never, one_blas_thread
 
 if TYPE_CHECKING:

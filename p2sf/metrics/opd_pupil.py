@@ -13,6 +13,9 @@ from numpy.typing import ArrayLike
 
 from p2sf.arguments import check_arguments, number_list, real_array
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
+from p2sf.disc.domain import WHOLE, ClearNodes
+from p2sf.disc.quadrature import cell_areas
+from p2sf.disc.zernike_terms import ZernikeOrder, zernike_terms, zernike_values
 from p2sf.errors import RequestError, SamplingError
 from p2sf.figures.hankel import HankelEnergy, hankel_energy
 from p2sf.figures.measures import PARTS, Energy, LineSpread, Mtf
@@ -21,10 +24,7 @@ from p2sf.metrics.transfer import OtfSlice, edge_spread, line_spread
 from p2sf.parameters import check_positive
 from p2sf.psf.from_opd import centres, psf_of_opd, pupil_of_cells
 from p2sf.psf.result import Psf
-from p2sf.pupil.domain import WHOLE, ClearNodes
-from p2sf.pupil.quadrature import cell_areas
-from p2sf.pupil.zernike_terms import ZernikeOrder, zernike_terms, zernike_values
-from p2sf.raytrace.zernike_fit import USUAL_TERMS, ZernikeFit, decompose
+from p2sf.pupil.zernike_fit import USUAL_TERMS, ZernikeFit, decompose
 from p2sf.threads import one_blas_thread
 
 FREQUENCIES, RADII, POINTS = 257, 129, 513

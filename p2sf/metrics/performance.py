@@ -20,10 +20,10 @@ from p2sf.metrics.measures import Parts, energy_in, mtf_of, parts_of
 from p2sf.pixel_kernels.illumination import relative_illumination
 from p2sf.pixel_kernels.sensor_points import landing_mm, sensor_map, slope_ratio
 from p2sf.psf.methods import PsfOptions, render, whole_pixel_um
+from p2sf.pupil.zernike_fit import zernike_fit
 from p2sf.raytrace.aiming import Sources
 from p2sf.raytrace.field_curves import heights
 from p2sf.raytrace.pencil import pencil
-from p2sf.raytrace.zernike_fit import zernike_fit
 
 T = TypeVar("T")
 USUAL_PER_MM = 10.0, 30.0

@@ -17,13 +17,13 @@ import numpy as np
 from numpy.polynomial.chebyshev import chebvander
 
 from p2sf.conventions import write_protect
+from p2sf.disc.phasors import cosine_sine
+from p2sf.disc.quadrature import even_count
 from p2sf.errors import Cancelled, SamplingError
 from p2sf.metrics.frequency_pupil import FrequencyPupil, Reach, reach_of, uniform_disc
 from p2sf.metrics.line_ends import ENDS, end_weights
 from p2sf.metrics.masked_transfer import MaskedLines, masked_lines, masked_sum
 from p2sf.metrics.perfect import circle_contrast
-from p2sf.pupil.phasors import cosine_sine
-from p2sf.pupil.quadrature import even_count
 from p2sf.threads import never
 
 FEWEST_LINES, LINES_PER_WAVE, LINES_PER_END = 48, 2.5, 0.75

@@ -14,7 +14,7 @@ from p2sf.pixel_kernels.pupil_stack import PixelPupil, PupilStack, stack_pupils
 from p2sf.pixel_kernels.pupil_table import PupilTable
 from p2sf.pixel_kernels.ray_spread import RaySpread, ray_kernel, ray_spread
 from p2sf.pixel_kernels.sensor_points import SensorMap
-from p2sf.raytrace.seen_mask import mask_seen
+from p2sf.pupil.seen_mask import mask_seen
 
 RAYS = "rays"  # the method of recipes for kernels from densities of rays
 

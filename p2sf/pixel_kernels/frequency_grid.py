@@ -10,21 +10,21 @@ from dataclasses import fields, replace
 
 import numpy as np
 
+from p2sf.disc.basis import Kinds, Terms, at_nodes, determinant
+from p2sf.disc.domain import HALF, ClearNodes, PupilDomain
+from p2sf.disc.mask import PupilMask
+from p2sf.disc.zernike import basis_by_powers
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, Surface, seen_from
 from p2sf.lens.source import Source
 from p2sf.paraxial.seidel import coefficients
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.pixel_kernels.pupil_stack import PixelPupil, PupilStack, frequency_basis, with_reach
-from p2sf.pupil.basis import Kinds, Terms, at_nodes, determinant
-from p2sf.pupil.domain import HALF, ClearNodes, PupilDomain
-from p2sf.pupil.mask import PupilMask
-from p2sf.pupil.zernike import basis_by_powers
+from p2sf.pupil.clear_pieces import CLIPPED
+from p2sf.pupil.fit import Level, PencilForms, fit, level_rays, pencil_forms
+from p2sf.pupil.seen_mask import mask_seen
 from p2sf.raytrace.aiming import Sources, pupil_rays, start
-from p2sf.raytrace.clear_pieces import CLIPPED
-from p2sf.raytrace.fit import Level, PencilForms, fit, level_rays, pencil_forms
 from p2sf.raytrace.pencil import all_reaching, in_azimuth, on_sensor
-from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.raytrace.trace import lens_rims, run
 
 ORDERS = 6, 18  # the smallest and the largest

@@ -5,15 +5,15 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike
 
+from p2sf.disc.domain import ClearNodes
 from p2sf.lens.lens import Lens, seen_from
 from p2sf.lens.source import Source
 from p2sf.pixel_kernels.sensor_points import SensorMap, landing_mm
-from p2sf.pupil.domain import ClearNodes
+from p2sf.pupil.clear_pieces import holes_of
+from p2sf.pupil.clear_rim import clear_rim
+from p2sf.pupil.vignetting import pupil_nodes
 from p2sf.raytrace.aiming import pupil_rays
-from p2sf.raytrace.clear_pieces import holes_of
-from p2sf.raytrace.clear_rim import clear_rim
 from p2sf.raytrace.pencil import pencil, rays_through
-from p2sf.raytrace.vignetting import pupil_nodes
 from p2sf.threads import map_threads
 
 NODES = 12, 32

@@ -7,10 +7,10 @@ from math import sqrt
 import numpy as np
 
 from p2sf.conventions import FloatOrArray
+from p2sf.disc.mask_cells import inside_share, open_share, turned_back, wings
 from p2sf.errors import SamplingError
 from p2sf.pixel_kernels.pupil_stack import PixelPupil, PupilStack, Turned, stack_pupils, turn_pupils
 from p2sf.pixel_kernels.ray_spread import RaySpread
-from p2sf.pupil.mask_cells import inside_share, open_share, turned_back, wings
 
 TAIL = 8.0  # of λ/NA: the width of the diffraction wings kept beyond where rays land, times `wings` behind a mask
 LARGEST_WINDOW = 4096

@@ -10,11 +10,11 @@ from typing import Any
 
 import numpy as np
 
+from p2sf.disc.basis import PupilBasis, Terms, at_nodes
+from p2sf.disc.domain import PupilDomain
+from p2sf.disc.mask import CLEAR, PupilMask, mask_slopes
+from p2sf.disc.zernike import powers
 from p2sf.errors import GeometryError
-from p2sf.pupil.basis import PupilBasis, Terms, at_nodes
-from p2sf.pupil.domain import PupilDomain
-from p2sf.pupil.mask import CLEAR, PupilMask, mask_slopes
-from p2sf.pupil.zernike import powers
 
 REACH_NODES = 24, 48
 FOLDED = 0.1  # of the light: nodes that lie inside or not count it to some 3 % where the polynomials hold

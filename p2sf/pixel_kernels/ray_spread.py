@@ -10,14 +10,14 @@ from math import cos, pi, sin
 
 import numpy as np
 
+from p2sf.disc.mask import CLEAR, PupilMask
+from p2sf.disc.mask_cells import turned_back
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, check_rays
 from p2sf.lens.source import Source
 from p2sf.pixel_kernels.nodes import hats
-from p2sf.pupil.mask import CLEAR, PupilMask
-from p2sf.pupil.mask_cells import turned_back
+from p2sf.pupil.seen_mask import mask_seen
 from p2sf.raytrace.pencil import pencil
-from p2sf.raytrace.seen_mask import mask_seen
 
 TRACED = 40, 120  # steps of radius, and of direction in each half of the disc: exact rays at their ends
 FINER = 5  # times as many cells either way, with rays interpolated between the exact ones

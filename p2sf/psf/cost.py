@@ -2,14 +2,14 @@
 
 from math import inf, prod
 
+from p2sf.disc.mask import PupilMask
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.psf.methods import Method, PsfRequest, method_of
 from p2sf.psf.seidel_stack import as_fit
-from p2sf.psf.smooth_pupil import all_reach
-from p2sf.psf.sums.plane_waves import counts_for, window_reach_um
-from p2sf.pupil.mask import PupilMask
-from p2sf.raytrace.fit import FittedPencil
-from p2sf.raytrace.seen_mask import mask_seen
+from p2sf.pupil.fit import FittedPencil
+from p2sf.pupil.plane_waves import counts_for, window_reach_um
+from p2sf.pupil.seen_mask import mask_seen
+from p2sf.pupil.smooth_pupil import all_reach
 
 SAMPLE_SECONDS = 1.5e-7  # of a sample of the picture, by a Fourier transform
 

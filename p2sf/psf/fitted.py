@@ -8,6 +8,11 @@ from time import perf_counter
 import numpy as np
 
 from p2sf.conventions import centred_axis
+from p2sf.disc.basis import at_nodes
+from p2sf.disc.disc_function import DiscFunction
+from p2sf.disc.domain import ClearNodes
+from p2sf.disc.mask_nodes import mask_nodes
+from p2sf.disc.quadrature import SETTLED_TOLERANCE
 from p2sf.errors import SamplingError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
@@ -15,14 +20,9 @@ from p2sf.messages import Message
 from p2sf.psf.picture import Window, psf_of_waves, resolved
 from p2sf.psf.prediction import EDGE_ERROR, predicted_error
 from p2sf.psf.result import Psf
-from p2sf.psf.sums.plane_waves import Counts, Waves, counts_for, disc_words, pupil_amplitude, window_reach_um
-from p2sf.pupil.basis import at_nodes
-from p2sf.pupil.disc_function import DiscFunction
-from p2sf.pupil.domain import ClearNodes
-from p2sf.pupil.mask_nodes import mask_nodes
-from p2sf.pupil.quadrature import SETTLED_TOLERANCE
-from p2sf.raytrace.fit import FittedPencil, fit
-from p2sf.raytrace.vignetting import masked_blur
+from p2sf.pupil.fit import FittedPencil, fit
+from p2sf.pupil.plane_waves import Counts, Waves, counts_for, disc_words, pupil_amplitude, window_reach_um
+from p2sf.pupil.vignetting import masked_blur
 from p2sf.threads import one_blas_thread
 
 __all__ = ["FittedPencil", "fit", "fitted_intensity", "fitted_psf", "fitted_waves", "psf_of_fit", "sum_fit"]

@@ -11,6 +11,9 @@ from numpy.typing import ArrayLike
 
 from p2sf.arguments import check_arguments, real_array
 from p2sf.conventions import NM_PER_UM, centred_axis
+from p2sf.disc.domain import WHOLE
+from p2sf.disc.quadrature import cell_areas
+from p2sf.disc.transform import matrix_dft
 from p2sf.errors import SamplingError
 from p2sf.files.writing import plain
 from p2sf.messages import Message
@@ -21,10 +24,7 @@ from p2sf.psf.peak import Peak, peak_of
 from p2sf.psf.picture import psf_of_intensity, resolved
 from p2sf.psf.result import Psf, warn_of_window
 from p2sf.psf.seidel import check_samples
-from p2sf.psf.sums.plane_waves import Waves
-from p2sf.pupil.domain import WHOLE
-from p2sf.pupil.quadrature import cell_areas
-from p2sf.pupil.transform import matrix_dft
+from p2sf.pupil.plane_waves import Waves
 from p2sf.threads import one_blas_thread
 
 STEEPEST_STEP = 0.5  # waves between neighbouring cells: a steeper phase is aliased

@@ -13,6 +13,9 @@ from time import perf_counter
 import numpy as np
 
 from p2sf.conventions import vergence, write_protect
+from p2sf.disc.domain import HALF, WHOLE, PupilDomain
+from p2sf.disc.mask import PupilMask
+from p2sf.disc.mask_nodes import throughput
 from p2sf.errors import GeometryError
 from p2sf.figures.psf_data import PsfFigures
 from p2sf.lens.lens import Lens
@@ -20,13 +23,10 @@ from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients, coefficients
 from p2sf.psf.result import Psf
-from p2sf.pupil.domain import HALF, WHOLE, PupilDomain
-from p2sf.pupil.mask import PupilMask
-from p2sf.pupil.mask_nodes import throughput
+from p2sf.pupil.seen_mask import mask_seen
 from p2sf.raytrace.aiming import SUM_AIM_ERROR
 from p2sf.raytrace.focusing import focused_vergence
 from p2sf.raytrace.pencil import pencil
-from p2sf.raytrace.seen_mask import mask_seen
 
 GRIDS = {"preview": (64, 180), "settled": (128, 360)}  # radii, directions of the half disc
 TOO_FAR = 2.0  # times the distance on which a lens is focused

@@ -16,6 +16,8 @@ from typing import Any
 import numpy as np
 
 from p2sf.conventions import centred_axis
+from p2sf.disc.domain import ClearNodes
+from p2sf.disc.quadrature import SETTLED_TOLERANCE
 from p2sf.errors import Cancelled, GeometryError, SamplingError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
@@ -25,7 +27,10 @@ from p2sf.psf.peak import peak_of
 from p2sf.psf.picture import Window, psf_of_intensity, resolved
 from p2sf.psf.prediction import CAUTION, EDGE_ERROR, TRACED_ERROR
 from p2sf.psf.result import Psf
-from p2sf.psf.smooth_pupil import (
+from p2sf.pupil.fit import FittedPencil
+from p2sf.pupil.plane_waves import Counts, Waves, counts_for, disc_words, pupil_amplitude, window_reach_um
+from p2sf.pupil.seen_mask import with_slopes
+from p2sf.pupil.smooth_pupil import (
     PROBE,
     RayWaves,
     all_reach,
@@ -34,16 +39,11 @@ from p2sf.psf.smooth_pupil import (
     coarse_slopes,
     interpolated_waves,
 )
-from p2sf.psf.sums.plane_waves import Counts, Waves, counts_for, disc_words, pupil_amplitude, window_reach_um
-from p2sf.psf.sums.spherical_waves import SphericalWaves, waves_from
-from p2sf.pupil.domain import ClearNodes
-from p2sf.pupil.quadrature import SETTLED_TOLERANCE
+from p2sf.pupil.spherical_waves import SphericalWaves, waves_from
+from p2sf.pupil.vignetting import pupil_nodes
 from p2sf.raytrace.exit_sphere import ExitSphere
-from p2sf.raytrace.fit import FittedPencil
 from p2sf.raytrace.pencil import Rays, pencil, rays_through
 from p2sf.raytrace.ray_field import MapSlopes, Steepness, steepness
-from p2sf.raytrace.seen_mask import with_slopes
-from p2sf.raytrace.vignetting import pupil_nodes
 from p2sf.threads import for_each, one_blas_thread
 
 BLUR_NODES = 16, 40  # carry weight and area of rays, which are smooth

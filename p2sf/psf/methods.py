@@ -12,6 +12,8 @@ from time import perf_counter
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM
+from p2sf.disc.mask import PupilMask
+from p2sf.disc.quadrature import SETTLED_TOLERANCE
 from p2sf.errors import GeometryError, P2SFError, RequestError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
@@ -35,7 +37,6 @@ from p2sf.psf.seidel import (
     suitable_pixel_um,
 )
 from p2sf.psf.seidel_stack import LARGEST_NODES, as_fit
-from p2sf.psf.smooth_pupil import all_reach
 from p2sf.psf.spherical import (
     fresnel_number,
     half_window_um,
@@ -45,14 +46,9 @@ from p2sf.psf.spherical import (
     spherical_pupil,
     worth_spherical,
 )
-from p2sf.psf.sums.spherical_waves import TERM_SECONDS
 from p2sf.psf.traced import EDGE_TOLERANCE, traced_psf
 from p2sf.psf.traced import MOST_NODES as MOST_TRACED
-from p2sf.pupil.mask import PupilMask
-from p2sf.pupil.quadrature import SETTLED_TOLERANCE
-from p2sf.raytrace.exit_sphere import exit_sphere
-from p2sf.raytrace.field_geometry import cone
-from p2sf.raytrace.fit import (
+from p2sf.pupil.fit import (
     LEVELS,
     RESIDUAL_WAVES,
     CheckRays,
@@ -64,10 +60,14 @@ from p2sf.raytrace.fit import (
     levels_for,
     trace_check_rays,
 )
+from p2sf.pupil.seen_mask import mask_seen
+from p2sf.pupil.smooth_pupil import all_reach
+from p2sf.pupil.spherical_waves import TERM_SECONDS
+from p2sf.pupil.vignetting import pupil_nodes
+from p2sf.raytrace.exit_sphere import exit_sphere
+from p2sf.raytrace.field_geometry import cone
 from p2sf.raytrace.pencil import Rays, pencil, to_the_rim
 from p2sf.raytrace.ray_field import AIRY_RADIUS, Steepness, steepness
-from p2sf.raytrace.seen_mask import mask_seen
-from p2sf.raytrace.vignetting import pupil_nodes
 from p2sf.threads import one_blas_thread
 
 AUTO = "auto"

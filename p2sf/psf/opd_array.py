@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from p2sf.conventions import write_protect
+from p2sf.disc.phasors import cosine_sine
 from p2sf.errors import SamplingError
-from p2sf.psf.sums.seidel_sum import unfold
-from p2sf.pupil.phasors import cosine_sine
+from p2sf.psf.seidel_sum import unfold
 
 Precision = type[np.float32] | type[np.float64]
 

@@ -13,7 +13,7 @@ from math import ceil, hypot, sqrt
 import numpy as np
 
 from p2sf.conventions import centred_axis
-from p2sf.psf.sums.plane_waves import Waves
+from p2sf.pupil.plane_waves import Waves
 from p2sf.threads import one_blas_thread
 
 FINE = 5  # samples per period of the pupil's highest frequency on a separate grid for the search

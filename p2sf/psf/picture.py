@@ -9,7 +9,7 @@ from p2sf.conventions import centred_axis
 from p2sf.figures.psf_data import Later, PsfFigures
 from p2sf.psf.peak import Peak, peak_of
 from p2sf.psf.result import Psf
-from p2sf.psf.sums.plane_waves import Waves
+from p2sf.pupil.plane_waves import Waves
 
 Window = tuple[int, float]
 """Pixels on a side, µm per pixel."""

@@ -20,11 +20,11 @@ from p2sf.psf.huygens import FRINGES_OF_SPHERES
 from p2sf.psf.methods import AUTO, REFERENCE, SPHERICAL, USUAL, PsfOptions, method_of, render, whole_pixel_um
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_samples
+from p2sf.pupil.fit import level_rays, levels_for
+from p2sf.pupil.vignetting import pupil_nodes
 from p2sf.raytrace.exit_sphere import exit_sphere
 from p2sf.raytrace.field_geometry import cone
-from p2sf.raytrace.fit import level_rays, levels_for
 from p2sf.raytrace.pencil import pencil, rays_through
-from p2sf.raytrace.vignetting import pupil_nodes
 
 RAYS = 24, 96  # radii × directions for the share of light in a window
 

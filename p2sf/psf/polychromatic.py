@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from p2sf.colour.colorimetry import bands
 from p2sf.colour.spectrum import Spectrum
 from p2sf.conventions import UM_PER_MM
+from p2sf.disc.mask_nodes import throughput
 from p2sf.errors import RequestError
 from p2sf.figures.colour_psf import ColourPsf
 from p2sf.lens.lens import Lens, lens_range_um, seen_from
@@ -20,10 +21,9 @@ from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.methods import render, whole_pixel_um
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_focus, suitable_pixel_um
-from p2sf.pupil.mask_nodes import throughput
+from p2sf.pupil.vignetting import pupil_nodes
 from p2sf.raytrace.field_geometry import cone
 from p2sf.raytrace.pencil import Sources, pencil, rays_through
-from p2sf.raytrace.vignetting import pupil_nodes
 from p2sf.threads import one_blas_thread
 
 COUNT = 21  # bands of a continuous spectrum: neighbours then differ by some 12 nm

@@ -8,6 +8,11 @@ import numpy as np
 from numpy.typing import DTypeLike
 
 from p2sf.conventions import FloatOrArray, anywhere, centred_axis
+from p2sf.disc.domain import HALF
+from p2sf.disc.mask import CLEAR, PupilMask
+from p2sf.disc.mask_nodes import throughput
+from p2sf.disc.quadrature import SETTLED_TOLERANCE, cell_areas, disc_nodes, even_count, nodes_for
+from p2sf.disc.transform import check_fft, padded_fft, sum_plane_waves
 from p2sf.errors import GeometryError, SamplingError
 from p2sf.figures.psf_data import Later, PsfFigures
 from p2sf.messages import Message
@@ -17,14 +22,9 @@ from p2sf.psf.fitted import MOST_FOR_PEAK, waves_reaching
 from p2sf.psf.peak import peak_of, sampled_peak
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel_stack import SummedStack, as_fit, corner_reach, each_of, stack_of
-from p2sf.psf.sums.plane_waves import Waves, counts_for, pupil_amplitude, window_reach_um
-from p2sf.psf.sums.seidel_sum import wave_number
-from p2sf.pupil.domain import HALF
-from p2sf.pupil.mask import CLEAR, PupilMask
-from p2sf.pupil.mask_nodes import throughput
-from p2sf.pupil.quadrature import SETTLED_TOLERANCE, cell_areas, disc_nodes, even_count, nodes_for
-from p2sf.pupil.transform import check_fft, padded_fft, sum_plane_waves
-from p2sf.raytrace.fit import FittedPencil
+from p2sf.psf.seidel_sum import wave_number
+from p2sf.pupil.fit import FittedPencil
+from p2sf.pupil.plane_waves import Waves, counts_for, pupil_amplitude, window_reach_um
 from p2sf.raytrace.ray_field import AIRY_RADIUS
 from p2sf.threads import one_blas_thread
 

@@ -14,21 +14,9 @@ import numpy as np
 from numpy.typing import DTypeLike
 
 from p2sf.conventions import write_protect
-from p2sf.errors import SamplingError
-from p2sf.messages import Message
-from p2sf.paraxial.seidel import Coefficients
-from p2sf.paraxial.wavefront import bound_of, chords_of, polar_of, shapes, steepest_of
-from p2sf.psf.fitted import sum_fit
-from p2sf.psf.sums.seidel_sum import (
-    BATCH,
-    batch_intensities,
-    groups,
-    shape_terms,
-    wave_number,
-)
-from p2sf.pupil.basis import PupilBasis
-from p2sf.pupil.mask import CLEAR, PupilMask
-from p2sf.pupil.quadrature import (
+from p2sf.disc.basis import PupilBasis
+from p2sf.disc.mask import CLEAR, PupilMask
+from p2sf.disc.quadrature import (
     RowNodes,
     chord_rows,
     chords_for,
@@ -36,9 +24,21 @@ from p2sf.pupil.quadrature import (
     even_count,
     grid_rows,
 )
-from p2sf.raytrace.fit import FittedPencil, Level
+from p2sf.errors import SamplingError
+from p2sf.messages import Message
+from p2sf.paraxial.seidel import Coefficients
+from p2sf.paraxial.wavefront import bound_of, chords_of, polar_of, shapes, steepest_of
+from p2sf.psf.fitted import sum_fit
+from p2sf.psf.seidel_sum import (
+    BATCH,
+    batch_intensities,
+    groups,
+    shape_terms,
+    wave_number,
+)
+from p2sf.pupil.fit import FittedPencil, Level
+from p2sf.pupil.seen_mask import with_slopes
 from p2sf.raytrace.ray_field import Steepness
-from p2sf.raytrace.seen_mask import with_slopes
 from p2sf.threads import map_threads, one_blas_thread, threads_or_default
 
 PREVIEW_GRID = 128

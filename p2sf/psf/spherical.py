@@ -16,18 +16,18 @@ from math import hypot, inf, pi, prod
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM, centred_axis
+from p2sf.disc.domain import WHOLE, PupilDomain
 from p2sf.errors import P2SFError, SamplingError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import RayPupil, first_counts, ray_waves
 from p2sf.psf.prediction import CAUTION
-from p2sf.psf.smooth_pupil import all_reach, interpolated_waves
-from p2sf.psf.sums.plane_waves import Counts, Waves
-from p2sf.psf.sums.spherical_waves import SphericalWaves, waves_from
-from p2sf.pupil.domain import WHOLE, PupilDomain
+from p2sf.pupil.fit import level_rays, levels_for
+from p2sf.pupil.plane_waves import Counts, Waves
+from p2sf.pupil.smooth_pupil import all_reach, interpolated_waves
+from p2sf.pupil.spherical_waves import SphericalWaves, waves_from
 from p2sf.raytrace.exit_sphere import ExitSphere, exit_sphere
-from p2sf.raytrace.fit import level_rays, levels_for
 from p2sf.raytrace.pencil import Rays, exit_radius, pencil
 from p2sf.raytrace.ray_field import AIRY_RADIUS, Steepness, steepness
 from p2sf.threads import one_blas_thread

@@ -10,6 +10,7 @@ from functools import partial
 from math import prod
 from time import perf_counter
 
+from p2sf.disc.quadrature import SETTLED_TOLERANCE
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
@@ -26,9 +27,8 @@ from p2sf.psf.huygens import (
 from p2sf.psf.picture import psf_of_waves, resolved
 from p2sf.psf.prediction import EDGE_ERROR, TRACED_ERROR
 from p2sf.psf.result import Psf
-from p2sf.psf.smooth_pupil import all_reach, interpolated_waves
-from p2sf.psf.sums.plane_waves import window_reach_um
-from p2sf.pupil.quadrature import SETTLED_TOLERANCE
+from p2sf.pupil.plane_waves import window_reach_um
+from p2sf.pupil.smooth_pupil import all_reach, interpolated_waves
 from p2sf.threads import one_blas_thread
 
 MOST_NODES = 2**23  # radii × directions / 2: some seconds of work

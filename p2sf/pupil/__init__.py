@@ -1,1 +1,1 @@
-"""Sampling the pupil: quadrature nodes, Zernike polynomials, and the sums from the pupil to the focal plane."""
+"""Pupils: of a source through a lens, what light leaves it and how it is described."""

@@ -1,1 +1,1 @@
-"""Exact rays: through a surface and a lens, the pencil of one source, fits to it, vignetting, field curves."""
+"""Exact rays: through a surface and a lens, aimed at the stop, the pencil of one source, the geometry of a field."""

@@ -13,16 +13,16 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from p2sf.conventions import FloatOrArray, degrees_from_slope, slope_from_degrees, vergence
+from p2sf.disc.basis import Terms
+from p2sf.disc.disc_function import Counts, DiscFunction
+from p2sf.disc.domain import ClearNodes, PupilDomain
+from p2sf.disc.zernike import basis_by_powers
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, indices, message_if_misaligned
 from p2sf.lens.source import Source
 from p2sf.messages import Message, ParameterName
 from p2sf.paraxial.first_order import check_depth
 from p2sf.paraxial.pupils import Pupils, Stop, find_stop, pupils
-from p2sf.pupil.basis import Terms
-from p2sf.pupil.disc_function import Counts, DiscFunction
-from p2sf.pupil.domain import ClearNodes, PupilDomain
-from p2sf.pupil.zernike import basis_by_powers
 from p2sf.raytrace.surface import Beam, Status
 from p2sf.raytrace.trace import Index, launch, per_ray, run
 

@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from p2sf.conventions import UM_PER_MM, FloatOrArray, write_protect
+from p2sf.disc.domain import ClearNodes
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, seen_from
 from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import Stop
-from p2sf.pupil.domain import ClearNodes
 from p2sf.raytrace.aiming import AIM_ERROR, PupilRays, Sources, arriving, entrance, pupil_rays, start
 from p2sf.raytrace.chief_ray import check_chief_ray, chief_ray_error
 from p2sf.raytrace.field_geometry import exit_pupil, tangent_axes

@@ -21,8 +21,8 @@ from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.seidel import seidel_psf
+from p2sf.pupil.zernike_fit import zernike_fit
 from p2sf.raytrace.pencil import displayed_opd, pencil
-from p2sf.raytrace.zernike_fit import zernike_fit
 from p2sf.studies.listings import edges, hubble, singlet, telescope
 from p2sf.studies.listings.row import ListedNumber
 from p2sf.studies.paper import PIXELS, WINDOW_UM

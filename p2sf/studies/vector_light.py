@@ -16,6 +16,8 @@ from time import perf_counter
 import numpy as np
 
 from p2sf.conventions import centred_axis
+from p2sf.disc.quadrature import gauss_legendre
+from p2sf.disc.transform import sum_plane_waves
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
@@ -23,10 +25,8 @@ from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import RayPupil, first_counts
 from p2sf.psf.prediction import CAUTION
 from p2sf.psf.result import Psf
-from p2sf.psf.sums.plane_waves import disc_words, pupil_amplitude, window_reach_um
-from p2sf.pupil.quadrature import gauss_legendre
-from p2sf.pupil.transform import sum_plane_waves
-from p2sf.raytrace.fit import fit
+from p2sf.pupil.fit import fit
+from p2sf.pupil.plane_waves import disc_words, pupil_amplitude, window_reach_um
 from p2sf.raytrace.pencil import rays_through
 from p2sf.threads import one_blas_thread
 

@@ -7,10 +7,10 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from p2sf.conventions import write_protect
+from p2sf.disc import zernike
+from p2sf.disc.quadrature import whole_disc
+from p2sf.disc.tilt import without_tilt
 from p2sf.errors import Cancelled, RequestError
-from p2sf.pupil import zernike
-from p2sf.pupil.quadrature import whole_disc
-from p2sf.pupil.tilt import without_tilt
 from p2sf.threads import one_blas_thread
 from p2sf.tolerance.contrast import NEAR, Pairs, at_frequency, pairs_of
 from p2sf.tolerance.differentials import NODES, Differentials

@@ -17,16 +17,16 @@ import numpy as np
 from numpy.polynomial.chebyshev import chebder, chebval2d, chebvander2d
 
 from p2sf.conventions import UM_PER_MM
+from p2sf.disc.mask_nodes import mask_nodes
+from p2sf.disc.open_part import edges_of, places_between
+from p2sf.disc.phasors import cosine_sine
+from p2sf.disc.quadrature import gauss_legendre, whole_disc
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.parameters import check_positive
-from p2sf.pupil.mask_nodes import mask_nodes
-from p2sf.pupil.open_part import edges_of, places_between
-from p2sf.pupil.phasors import cosine_sine
-from p2sf.pupil.quadrature import gauss_legendre, whole_disc
+from p2sf.pupil.seen_mask import mask_seen
 from p2sf.raytrace.pencil import reaching
-from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.tolerance.differentials import FINE, FINEST, Differentials
 
 ORDER = 10  # of the polynomials that describe the pupil

@@ -22,12 +22,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM
+from p2sf.disc.mask_nodes import mask_nodes
+from p2sf.disc.quadrature import whole_disc
 from p2sf.errors import Cancelled, GeometryError
 from p2sf.lens.lens import Lens, with_sensor
 from p2sf.lens.placement import Motion, Placement, along_z
 from p2sf.lens.source import Source
-from p2sf.pupil.mask_nodes import mask_nodes
-from p2sf.pupil.quadrature import whole_disc
+from p2sf.pupil.seen_mask import mask_seen
 from p2sf.raytrace.pencil import (
     Crossings,
     Rays,
@@ -38,7 +39,6 @@ from p2sf.raytrace.pencil import (
     reaching_by_surfaces,
     tangent_axes,
 )
-from p2sf.raytrace.seen_mask import mask_seen
 from p2sf.threads import one_blas_thread
 from p2sf.tolerance.errors_of_build import IRREGULAR, MOVES, Tolerance, build, placement_of, source_of_build
 

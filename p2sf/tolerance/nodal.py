@@ -17,14 +17,14 @@ import numpy as np
 from numpy.polynomial.polynomial import polyval
 
 from p2sf.conventions import UM_PER_MM, degrees_from_slope, slope_from_degrees
+from p2sf.disc.quadrature import whole_disc
+from p2sf.disc.zernike_terms import ZernikeTerm, zernike_values
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.lens.misalignment import displaced
 from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import ParaxialRays, paraxial_rays
 from p2sf.paraxial.seidel import seidel_sums
-from p2sf.pupil.quadrature import whole_disc
-from p2sf.pupil.zernike_terms import ZernikeTerm, zernike_values
 from p2sf.raytrace.aiming import pupil_rays, start
 from p2sf.raytrace.chief_ray import check_chief_ray
 from p2sf.raytrace.pencil import displayed_opd

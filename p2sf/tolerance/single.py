@@ -11,9 +11,9 @@ from functools import cached_property
 
 import numpy as np
 
+from p2sf.disc.tilt import without_tilt
 from p2sf.errors import Cancelled, GeometryError
 from p2sf.lens.lens import Lens
-from p2sf.pupil.tilt import without_tilt
 from p2sf.raytrace.pencil import Rays
 from p2sf.threads import one_blas_thread
 from p2sf.tolerance.builds import SUMMED_RMS, Builds, FieldForm, QuadraticForm, by_form

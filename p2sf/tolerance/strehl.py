@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from p2sf.pupil.transform import newton_step
+from p2sf.disc.transform import newton_step
 
 SHARP = 0.5  # of the unaberrated peak: where the light at the point of least variance is above, the peak is near it
 REACH = 2.5  # periods of the highest frequency that a grid reaches about that point

@@ -12,18 +12,18 @@ from time import process_time
 import numpy as np
 import scipy.fft
 
+from p2sf.disc.mask import PupilMask
+from p2sf.disc.transform import sum_plane_waves
 from p2sf.lens.lens import Lens, with_f_number, with_mask
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.pixel_kernels.frequency_grid import pupil_map
 from p2sf.pixel_kernels.pixels import PixelWindow, rim_gain, sampled_light
 from p2sf.pixel_kernels.pupil_stack import PixelPupil, stack_pupils
-from p2sf.psf.sums.plane_waves import pupil_amplitude
-from p2sf.pupil.mask import PupilMask
-from p2sf.pupil.transform import sum_plane_waves
+from p2sf.pupil.plane_waves import pupil_amplitude
+from p2sf.pupil.seen_mask import mask_seen
+from p2sf.pupil.vignetting import pupil_nodes
 from p2sf.raytrace.pencil import rays_through
-from p2sf.raytrace.seen_mask import mask_seen
-from p2sf.raytrace.vignetting import pupil_nodes
 from p2sf.threads import using_threads
 
 SIDE, ROUNDS, AIRY, FARTHEST = 2048, 15, 0.61, 200

@@ -18,6 +18,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from p2sf.conventions import UM_PER_MM
+from p2sf.disc.quadrature import disc_nodes, grid_rows
 from p2sf.lens.lens import indices
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
@@ -26,9 +27,8 @@ from p2sf.paraxial.pupils import paraxial_rays
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.huygens import first_counts, huygens_psf
 from p2sf.psf.seidel import seidel_psf
-from p2sf.psf.sums.plane_waves import window_reach_um
-from p2sf.psf.sums.seidel_sum import kernels_for, shape_terms
-from p2sf.pupil.quadrature import disc_nodes, grid_rows
+from p2sf.psf.seidel_sum import kernels_for, shape_terms
+from p2sf.pupil.plane_waves import window_reach_um
 from p2sf.raytrace.aiming import PupilRays, pupil_rays
 from p2sf.threads import using_threads
 

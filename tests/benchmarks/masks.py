@@ -16,6 +16,7 @@ from time import thread_time
 import numpy as np
 from threadpoolctl import threadpool_limits
 
+from p2sf.disc.mask import CLEAR, PupilMap, PupilMask
 from p2sf.lens.lens import Lens, with_mask
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
@@ -25,10 +26,9 @@ from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import whole_pixel_um
 from p2sf.psf.seidel import seidel_psf
 from p2sf.psf.seidel_stack import as_fit
-from p2sf.psf.sums.plane_waves import counts_for, window_reach_um
 from p2sf.psf.traced import traced_psf
-from p2sf.pupil.mask import CLEAR, PupilMap, PupilMask
-from p2sf.raytrace.seen_mask import mask_seen
+from p2sf.pupil.plane_waves import counts_for, window_reach_um
+from p2sf.pupil.seen_mask import mask_seen
 from p2sf.threads import using_threads
 from tests.support.waves import relative_l2
 

@@ -14,6 +14,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from p2sf.conventions import slope_from_degrees
+from p2sf.disc.quadrature import cell_areas
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.seidel import coefficients
@@ -22,7 +23,6 @@ from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import PsfOptions, render
 from p2sf.psf.opd_array import opd_intensity
 from p2sf.psf.seidel import seidel_psf
-from p2sf.pupil.quadrature import cell_areas
 from p2sf.raytrace.pencil import opd_map
 from tests.benchmarks.timing import timed
 

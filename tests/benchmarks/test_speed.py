@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_limits
 
+from p2sf.disc.quadrature import cell_areas
 from p2sf.lens.lens import with_sensor
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.seidel import Coefficients, coefficients
@@ -18,8 +19,7 @@ from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf.compare import r_squared, relative_l2
 from p2sf.psf.opd_array import opd_intensity
 from p2sf.psf.seidel import plain_intensity, seidel_psf
-from p2sf.psf.sums.seidel_sum import wave_number
-from p2sf.pupil.quadrature import cell_areas
+from p2sf.psf.seidel_sum import wave_number
 from tests.benchmarks.timing import timed
 
 LENS = find_lens("double_gauss_28")

@@ -18,11 +18,11 @@ from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens, load_lens
 from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.lensfile.writing import SILICA_LABEL, write_lens
+from p2sf.metrics.spot import spot
 from p2sf.paraxial.pupils import pupils
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.reading import read_psf
 from p2sf.raytrace.pencil import pencil
-from p2sf.raytrace.spot import spot
 from p2sf.scene.files import read_scene
 from p2sf.scene.sensor import Sensor
 from tests.support.lenses.lens_files import read, read_file

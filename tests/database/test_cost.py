@@ -12,7 +12,7 @@ from p2sf.database.render import fine_sampling
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.seidel_stack import stack_parts
-from p2sf.psf.sums.seidel_sum import shape_terms
+from p2sf.psf.seidel_sum import shape_terms
 from tests.database.test_stack import SAMPLING, small
 
 ROUNDED = (1 + 1 / 8) ** 2  # counts of rows and of columns are rounded up to four significant bits

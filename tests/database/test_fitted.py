@@ -9,6 +9,7 @@ from p2sf.database.fitted import FieldLine, powers, split
 from p2sf.database.fitted_build import TOLERANCE_WAVES, build_fitted, held_out, ray_error
 from p2sf.database.render import Sampling, database_psf, render_source
 from p2sf.database.space import Space
+from p2sf.disc.quadrature import SETTLED_TOLERANCE
 from p2sf.errors import DatabaseError
 from p2sf.lens.lens import with_aim
 from p2sf.lens.source import Source
@@ -16,8 +17,7 @@ from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.pupils import find_stop
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.fitted import fitted_intensity, fitted_psf, sum_fit
-from p2sf.pupil.quadrature import SETTLED_TOLERANCE
-from p2sf.raytrace.fit import LEVELS, fit, levels
+from p2sf.pupil.fit import LEVELS, fit, levels
 from p2sf.raytrace.pencil import pencil
 from p2sf.spans import depth_nodes
 from tests.support.waves import relative_l2

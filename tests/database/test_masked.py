@@ -18,6 +18,8 @@ from p2sf.database.fitted_build import build_fitted
 from p2sf.database.parts import KINDS
 from p2sf.database.render import Sampling, database_psf, render_source
 from p2sf.database.space import Space
+from p2sf.disc.mask import PupilMap, PupilMask
+from p2sf.disc.mask_nodes import mask_nodes
 from p2sf.errors import DatabaseError, ExportError
 from p2sf.export.iset import write_iset
 from p2sf.lens.lens import with_mask
@@ -28,8 +30,6 @@ from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf.fitted import fitted_psf
 from p2sf.psf.methods import render
 from p2sf.psf.seidel import seidel_psf
-from p2sf.pupil.mask import PupilMap, PupilMask
-from p2sf.pupil.mask_nodes import mask_nodes
 from p2sf.spans import depth_nodes
 from tests.support.waves import relative_l2
 

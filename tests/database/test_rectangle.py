@@ -14,6 +14,8 @@ from p2sf.database.files.stack_write import write_stack
 from p2sf.database.fitted_build import TOLERANCE_WAVES, build_fitted
 from p2sf.database.render import Sampling, database_psf, render_source
 from p2sf.database.space import Space
+from p2sf.disc.domain import WHOLE
+from p2sf.disc.mask import PupilMask
 from p2sf.errors import DatabaseError, GeometryError
 from p2sf.export.coefficient_table import write_csv
 from p2sf.export.psf_cube import open_cube
@@ -25,8 +27,6 @@ from p2sf.lensfile.library import find_lens
 from p2sf.pixel_kernels.sensor_points import landing_mm
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import render
-from p2sf.pupil.domain import WHOLE
-from p2sf.pupil.mask import PupilMask
 
 ACROSS, UP = slope_from_degrees([-5.0, 0.0, 6.0]), slope_from_degrees([-6.0, 0.0, 7.0])
 SPACE = Space([5000.0, np.inf], UP, [0.5, 0.6], ACROSS)

@@ -10,9 +10,9 @@ import pytest
 from scipy.special import jv
 
 from p2sf.conventions import centred_axis
-from p2sf.psf.sums.plane_waves import pupil_amplitude
-from p2sf.pupil.quadrature import chord_rows, disc_nodes
-from p2sf.pupil.transform import matrix_dft, padded_fft, sum_plane_waves
+from p2sf.disc.quadrature import chord_rows, disc_nodes
+from p2sf.disc.transform import matrix_dft, padded_fft, sum_plane_waves
+from p2sf.pupil.plane_waves import pupil_amplitude
 
 SCALE = 0.3  # cycles per µm at the rim
 AXIS = centred_axis(33, 0.4)

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 from p2sf.conventions import centred_axis
+from p2sf.disc.quadrature import chord_rows, even_count, grid_rows
+from p2sf.disc.transform import padded_fft
 from p2sf.errors import GeometryError, SamplingError
 from p2sf.lens.lens import with_f_number
 from p2sf.paraxial.seidel import coefficients
@@ -17,9 +19,7 @@ from p2sf.psf.seidel import (
     seidel_psf,
     suitable_pixel_um,
 )
-from p2sf.psf.sums.seidel_sum import intensities, wave_number
-from p2sf.pupil.quadrature import chord_rows, even_count, grid_rows
-from p2sf.pupil.transform import padded_fft
+from p2sf.psf.seidel_sum import intensities, wave_number
 from tests.long.settled_sampling import PROMISE, error_of, random_case
 from tests.support.reference import prescription_lens
 from tests.support.tiers import in_tiers

@@ -7,6 +7,8 @@ import pytest
 from scipy.ndimage import map_coordinates
 
 from p2sf.conventions import centred_axis
+from p2sf.disc.mask import PupilMap, PupilMask
+from p2sf.disc.mask_cells import wings
 from p2sf.errors import GeometryError
 from p2sf.image.form import Forming, form_image, plan_lattice
 from p2sf.image.geometry import illumination
@@ -20,8 +22,6 @@ from p2sf.pixel_kernels.pixels import PixelWindow, half_width, pixel_kernel, sam
 from p2sf.pixel_kernels.ray_spread import ray_kernel, ray_spread
 from p2sf.pixel_kernels.sensor_points import SensorMap, sensor_map
 from p2sf.psf.huygens import huygens_psf
-from p2sf.pupil.mask import PupilMap, PupilMask
-from p2sf.pupil.mask_cells import wings
 from p2sf.raytrace.pencil import pupil_rays
 from p2sf.scene.planning.plan import plan
 from p2sf.scene.planning.reference import exact_pixels

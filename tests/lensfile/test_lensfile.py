@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from p2sf.disc.mask import PupilMap, PupilMask
 from p2sf.errors import LensFileError
 from p2sf.glass.media import ConstantIndex, TabulatedIndex, catalogue_glass, model_glass
 from p2sf.lens.lens import Aperture, Lens, Surface, with_mask
@@ -18,7 +19,6 @@ from p2sf.lensfile.library import find_lens, load_lens, shipped_lenses
 from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml, read_toml, write_toml
 from p2sf.lensfile.writing import write_lens
 from p2sf.paraxial.first_order import cardinal_points
-from p2sf.pupil.mask import PupilMap, PupilMask
 
 GOOD = """\
 title = "Biconvex"

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from p2sf.disc.mask import PupilMask
 from p2sf.errors import LensFileError
 from p2sf.glass.media import ConstantIndex, ModelGlass, TabulatedIndex, catalogue_glass
 from p2sf.lens.lens import Aperture, Lens, Surface
@@ -19,7 +20,6 @@ from p2sf.lensfile.writing import lens_to_iset, write_lens
 from p2sf.paraxial.first_order import abcd
 from p2sf.paraxial.pupils import find_stop, stop_rim
 from p2sf.paraxial.seidel import coefficients
-from p2sf.pupil.mask import PupilMask
 from p2sf.raytrace.pencil import pencil
 from tests.support.lenses.lens_files import FILES, FOLDER, read, text_of
 from tests.support.lenses.shaped_lenses import EXTENDED, ODD, OTHER_PHASE, QCON, singlet

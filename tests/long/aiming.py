@@ -15,6 +15,7 @@ from math import inf
 import numpy as np
 from scipy.optimize import brentq
 
+from p2sf.disc.quadrature import disc_nodes
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface, with_aim, with_sensor
 from p2sf.lens.source import Source
@@ -24,7 +25,6 @@ from p2sf.paraxial.pupils import field_from_object_height
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.seidel import suitable_pixel_um
-from p2sf.pupil.quadrature import disc_nodes
 from p2sf.raytrace.aiming import pupil_rays
 from p2sf.raytrace.pencil import pencil
 from tests.support.pupil_sums import best_shift_mm, ray_sum

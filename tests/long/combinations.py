@@ -26,6 +26,7 @@ from math import inf, isfinite, sqrt
 import numpy as np
 
 import p2sf
+from p2sf.disc.mask import PupilMask
 from p2sf.errors import P2SFError, P2SFWarning
 from p2sf.lens.freeform import XYPolynomial, ZernikeFringeSag
 from p2sf.lens.irregularity import Irregularity
@@ -37,10 +38,9 @@ from p2sf.lens.transmission import Transmission
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.methods import NAMES, residual_for, whole_pixel_um
 from p2sf.psf.result import Psf
-from p2sf.pupil.mask import PupilMask
-from p2sf.raytrace.fit import fit
+from p2sf.pupil.fit import fit
+from p2sf.pupil.seen_mask import mask_seen
 from p2sf.raytrace.pencil import pencil
-from p2sf.raytrace.seen_mask import mask_seen
 from tests.long.method_choice import TOLERANCES, random_mask, random_point
 from tests.long.misaligned_methods import misaligned
 from tests.support.brute_force import AGREED, Description, brute_force, of_fit, of_rays, of_six, within_rims

@@ -9,6 +9,7 @@ within, and CPU times. Exit code 1 where exact rays are off by more than a tenth
 import argparse
 from time import process_time
 
+from p2sf.disc.mask import PupilMask
 from p2sf.errors import P2SFError
 from p2sf.lens.lens import Aperture, Lens, Surface, with_f_number, with_mask
 from p2sf.lens.source import Source
@@ -16,7 +17,6 @@ from p2sf.lensfile.library import find_lens
 from p2sf.metrics.tails import tail_error
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import render
-from p2sf.pupil.mask import PupilMask
 
 F_NUMBERS = 1.4, 2.0, 2.8, 4.0, 5.6, 8.0, 11.0, 16.0
 MASKS = {"clear": PupilMask(), "six blades": PupilMask(blades=6), "four vanes": PupilMask(vanes=4)}

@@ -16,6 +16,9 @@ from time import process_time
 import numpy as np
 
 import p2sf
+from p2sf.disc.mask import PupilMask
+from p2sf.disc.quadrature import disc_nodes
+from p2sf.disc.transform import sum_plane_waves
 from p2sf.image.charts import draw_chart
 from p2sf.image.deblur import psnr
 from p2sf.image.form import Forming, form_image
@@ -33,9 +36,6 @@ from p2sf.measure.listings import read_listing
 from p2sf.measure.measurement import FrameRequest, measure_frame
 from p2sf.measure.reading import read_frame
 from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
-from p2sf.pupil.mask import PupilMask
-from p2sf.pupil.quadrature import disc_nodes
-from p2sf.pupil.transform import sum_plane_waves
 from p2sf.scene.planning.plan import plan
 from p2sf.scene.scene import Channel, Scene
 from p2sf.scene.sensor import Sensor

@@ -20,7 +20,7 @@ from p2sf.lens.source import Source
 from p2sf.paraxial.first_order import cardinal_points
 from p2sf.psf.huygens import first_counts
 from p2sf.psf.methods import PsfOptions, render, whole_pixel_um
-from p2sf.psf.sums.plane_waves import window_reach_um
+from p2sf.pupil.plane_waves import window_reach_um
 from tests.extremes.regimes import Case, curved_sensor_cases
 from tests.extremes.test_measures_extremes import AIMS, NAMED, SWEPT, outcome_of
 

@@ -26,6 +26,7 @@ from time import process_time
 import numpy as np
 
 from p2sf.conventions import centred_axis
+from p2sf.disc.mask import PupilMask
 from p2sf.errors import Cancelled, P2SFError
 from p2sf.lens.lens import Lens, lens_range_um, with_f_number, with_mask, with_sensor
 from p2sf.lens.positions import PARAMETER
@@ -38,10 +39,9 @@ from p2sf.psf.compare import r_squared, relative_l2
 from p2sf.psf.huygens import RayPupil, Watch, first_counts, sum_rays
 from p2sf.psf.methods import PsfOptions, whole_pixel_um
 from p2sf.psf.pixel_integrals import render_integrated
-from p2sf.psf.smooth_pupil import all_reach
 from p2sf.psf.spherical import fresnel_number, spherical_pupil
-from p2sf.psf.sums.plane_waves import window_reach_um
-from p2sf.pupil.mask import PupilMask
+from p2sf.pupil.plane_waves import window_reach_um
+from p2sf.pupil.smooth_pupil import all_reach
 from p2sf.raytrace.exit_sphere import exit_sphere
 from tests.support.double_sum import double_sum
 

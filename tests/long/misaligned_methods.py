@@ -28,9 +28,9 @@ from p2sf.psf.huygens import first_counts, huygens_psf, sum_rays
 from p2sf.psf.methods import PsfOptions, choose, render
 from p2sf.psf.seidel import suitable_pixel_um
 from p2sf.psf.spherical import spherical_pupil
-from p2sf.psf.sums.plane_waves import window_reach_um
 from p2sf.psf.traced import traced_psf
-from p2sf.raytrace.fit import NOT_SYMMETRIC
+from p2sf.pupil.fit import NOT_SYMMETRIC
+from p2sf.pupil.plane_waves import window_reach_um
 from tests.long.method_choice import TOLERANCES, random_point
 
 DECENTRE_MM, TILT_DEG = 0.2, 0.5

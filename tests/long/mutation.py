@@ -53,11 +53,11 @@ EQUIVALENT: dict[tuple[str, str], str] = {
         'xi, eta = np.meshgrid(line, line, indexing="ij")',
     ): "the steepest slope over a square grid is that over the grid transposed",
     (
-        "p2sf/pupil/domain.py",
+        "p2sf/disc/domain.py",
         "rho, held = np.sqrt((1 + square) / 2), (HELD_OUT_AROUND_DEG)",
     ): "rays held out to judge a fit may have any directions",
     (
-        "p2sf/pupil/mask_nodes.py",
+        "p2sf/disc/mask_nodes.py",
         "return ceil((2 * ((radial - 4) * width))) + 4 if radial > 4 else radial",
     ): "more nodes than the sum needs",
     (
@@ -109,7 +109,7 @@ EQUIVALENT: dict[tuple[str, str], str] = {
         "if not area.left() - 2 <= x <= area.right() + 1:",
     ): "a tick may stand a pixel beyond its axis",
     (
-        "p2sf/psf/sums/spherical_waves.py",
+        "p2sf/pupil/spherical_waves.py",
         "columns, rows = (np.unique(np.linspace(0, axis.size - 2, PROBED_SIDE).round().astype(int)) "
         "for axis in (x, y))",
     ): "the places that are probed may be any",

@@ -32,6 +32,7 @@ from time import process_time
 import numpy as np
 
 from p2sf.conventions import depth_of
+from p2sf.disc.quadrature import disc_nodes
 from p2sf.errors import GeometryError, P2SFError
 from p2sf.image.form import form_image, plan_lattice
 from p2sf.lens.lens import lens_range_um, with_f_number
@@ -40,8 +41,7 @@ from p2sf.paraxial.pupils import f_number, numerical_aperture
 from p2sf.paraxial.seidel import coefficients, reason_against_coefficients
 from p2sf.pixel_kernels.channel import Colour, Kernels, Recipe
 from p2sf.pixel_kernels.nodes import nodes_along
-from p2sf.psf.sums.plane_waves import counts_for, window_reach_um
-from p2sf.pupil.quadrature import disc_nodes
+from p2sf.pupil.plane_waves import counts_for, window_reach_um
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import steepness
 from p2sf.scene.planning import lens_pupils

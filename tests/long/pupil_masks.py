@@ -8,12 +8,12 @@ import argparse
 from math import ceil, pi, sqrt
 from time import perf_counter
 
+from p2sf.disc.mask import PupilMask
 from p2sf.lens.lens import with_aim, with_mask
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.traced import traced_psf
-from p2sf.pupil.mask import PupilMask
 from tests.support.masked_sum import masked_sum
 from tests.support.waves import r_squared
 

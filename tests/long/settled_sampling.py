@@ -11,13 +11,13 @@ from time import process_time
 
 import numpy as np
 
+from p2sf.disc.quadrature import chord_rows
 from p2sf.lens.lens import with_f_number, with_sensor
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.seidel import Coefficients, coefficients
 from p2sf.paraxial.wavefront import steepest_slope
 from p2sf.psf.seidel_stack import corner_reach, stack_parts
-from p2sf.psf.sums.seidel_sum import intensities, shape_terms, wave_number
-from p2sf.pupil.quadrature import chord_rows
+from p2sf.psf.seidel_sum import intensities, shape_terms, wave_number
 from tests.support.reference import LENSES, prescription_lens, reference
 
 PROMISE = 1e-4

@@ -23,10 +23,10 @@ from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.first_order import image_distance
 from p2sf.psf.compare import r_squared
 from p2sf.psf.methods import render
-from p2sf.psf.smooth_pupil import all_reach
 from p2sf.psf.spherical import fresnel_number, half_window_um, plane_wave_bound, plane_wave_error
+from p2sf.pupil.fit import level_rays, levels_for
+from p2sf.pupil.smooth_pupil import all_reach
 from p2sf.raytrace.exit_sphere import exit_sphere
-from p2sf.raytrace.fit import level_rays, levels_for
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import steepness
 

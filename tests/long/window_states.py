@@ -22,7 +22,7 @@ from p2sf.psf import huygens
 from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import first_counts, sum_rays
 from p2sf.psf.methods import reference_pupil
-from p2sf.psf.sums.plane_waves import window_reach_um
+from p2sf.pupil.plane_waves import window_reach_um
 from p2sf_explorer.compute.deferred_sums import SumCache, answer_to
 from p2sf_explorer.compute.live import Live, live
 from p2sf_explorer.compute.setup import ParaxialSetup, default_state, prescription, ranges

@@ -34,7 +34,7 @@ from p2sf.pixel_kernels.frequency_grid import pupil_map
 from p2sf.pixel_kernels.pixels import PixelWindow, half_width, pixel_kernel, samples_across
 from p2sf.psf.fitted import fitted_intensity
 from p2sf.psf.pixel_integrals import render_integrated
-from p2sf.raytrace.fit import fit
+from p2sf.pupil.fit import fit
 from tests.support.reference import DATA
 from tests.support.tiers import in_tiers
 

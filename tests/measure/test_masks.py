@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from p2sf.conventions import centred_axis
+from p2sf.disc.mask import PupilMask
 from p2sf.lens.lens import with_f_number, with_mask
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
@@ -17,8 +18,7 @@ from p2sf.measure.fitting.pupil_nodes import PupilNodes, has_twin, lens_nodes, m
 from p2sf.measure.frame import FrameGeometry
 from p2sf.measure.measurement import FrameRequest, measure_frame
 from p2sf.measure.simulation import Exposure, grid_of_points, simulated_frame
-from p2sf.pupil.mask import PupilMask
-from p2sf.raytrace.fit import fit
+from p2sf.pupil.fit import fit
 from tests.support.masked_sum import masked_sum
 
 NA, WAVE, PIXEL = 0.125, 0.55, 1.5

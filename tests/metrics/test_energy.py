@@ -10,6 +10,8 @@ from scipy.optimize import brentq
 from scipy.special import j0
 
 from p2sf.api import encircled_energy
+from p2sf.disc.domain import WHOLE
+from p2sf.disc.mask import CLEAR, PupilMask
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import with_aim
 from p2sf.lens.source import Source
@@ -20,8 +22,6 @@ from p2sf.metrics.frequency_pupil import pupil_of_coefficients, pupil_of_rays
 from p2sf.metrics.measures import PupilPart, energy_in
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.traced import traced_psf
-from p2sf.pupil.domain import WHOLE
-from p2sf.pupil.mask import CLEAR, PupilMask
 from tests.support.airy import circle_energy
 from tests.support.rays.ray_figures import ray_figures
 from tests.support.waves import NA, WAVELENGTH_UM, waves
@@ -196,7 +196,7 @@ def test_a_relay_at_infinity_is_refused_before_its_outline_is_sought(name, monke
     def sought(*_):
         raise AssertionError("the outline of what few rays pass was sought")
 
-    monkeypatch.setattr("p2sf.raytrace.vignetting._edge", sought)
+    monkeypatch.setattr("p2sf.pupil.vignetting._edge", sought)
     with pytest.raises(GeometryError) as caught:
         encircled_energy(find_lens(name), Source())
     assert 0 < caught.value.message.values["percent"] < 5

@@ -8,6 +8,8 @@ import pytest
 from scipy.integrate import quad
 from scipy.special import j1
 
+from p2sf.disc.domain import WHOLE
+from p2sf.disc.mask import PupilMask
 from p2sf.lens.lens import with_mask
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
@@ -16,9 +18,7 @@ from p2sf.metrics.measures import PupilPart, energy_in, mtf_of, parts_of, spread
 from p2sf.metrics.transfer import otf_slices
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.seidel import seidel_psf
-from p2sf.pupil.domain import WHOLE
-from p2sf.pupil.mask import PupilMask
-from tests.raytrace.test_clear_pieces import circles_apart
+from tests.pupil.test_clear_pieces import circles_apart
 from tests.support.waves import NA, WAVELENGTH_UM, waves
 
 MASKS = (

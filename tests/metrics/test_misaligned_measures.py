@@ -8,6 +8,8 @@ import pytest
 
 from p2sf.colour.colorimetry import bands
 from p2sf.colour.spectrum import spectrum_of
+from p2sf.disc.domain import WHOLE
+from p2sf.disc.mask import PupilMask
 from p2sf.glass.media import MIRROR
 from p2sf.lens.lens import Surface, with_f_number, with_mask
 from p2sf.lens.misalignment import displaced, folding
@@ -21,8 +23,6 @@ from p2sf.metrics.perfect import circle_contrast
 from p2sf.metrics.transfer import otf_slices
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.polychromatic import chief_places_um, colour_psf, suitable_pitch_um
-from p2sf.pupil.domain import WHOLE
-from p2sf.pupil.mask import PupilMask
 from tests.support.airy import circle_energy
 
 FREQUENCIES = np.array([0.0, 5.0, 10.0, 20.0, 40.0, 80.0])

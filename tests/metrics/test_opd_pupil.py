@@ -8,9 +8,9 @@ from scipy.integrate import quad
 from scipy.special import j0, j1
 
 import p2sf
+from p2sf.disc.quadrature import cell_areas
+from p2sf.disc.zernike_terms import zernike_terms, zernike_values
 from p2sf.errors import P2SFError
-from p2sf.pupil.quadrature import cell_areas
-from p2sf.pupil.zernike_terms import zernike_terms, zernike_values
 
 NA, NM = 0.1, 500.0
 PER_UM = NA / (NM / 1000)  # cycles per µm at the rim

@@ -6,13 +6,13 @@ from functools import lru_cache
 import numpy as np
 import pytest
 
+from p2sf.disc.mask import PupilMask
 from p2sf.lens.lens import with_mask
 from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.metrics.measures import energy_in, mtf_of, parts_of, spread_of
-from p2sf.pupil.mask import PupilMask
 from tests.support.grid_sums import GridSums
 from tests.support.tiers import in_tiers
 

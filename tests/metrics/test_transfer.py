@@ -16,7 +16,7 @@ from p2sf.metrics.measures import PupilPart, mtf_of, spread_of
 from p2sf.metrics.perfect import diffraction_mtf
 from p2sf.metrics.transfer import OtfSlice, otf_slices
 from p2sf.psf.huygens import huygens_psf
-from p2sf.raytrace.fit import fit
+from p2sf.pupil.fit import fit
 from tests.support.overlap import overlap
 from tests.support.tiers import in_tiers
 from tests.support.waves import NA, WAVELENGTH_UM, waves

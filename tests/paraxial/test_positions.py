@@ -7,6 +7,7 @@ from math import inf
 import numpy as np
 import pytest
 
+from p2sf.disc.mask import PupilMask
 from p2sf.errors import GeometryError, RequestError
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface, with_sensor
@@ -15,7 +16,6 @@ from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
 from p2sf.paraxial.first_order import cardinal_points, image_distance
 from p2sf.paraxial.lens_checks import lens_checks
 from p2sf.paraxial.positions import edit_columns, focused_vergence, lens_at, matches_columns
-from p2sf.pupil.mask import PupilMask
 from p2sf.setting import Request, set_up
 from tests.support.lenses.zooms import FOCAL, FRONT, REAR, focusing_zoom, spaces, two_group_zoom, zoom_lens_at
 

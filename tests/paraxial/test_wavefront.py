@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from p2sf.disc.quadrature import disc_nodes
 from p2sf.paraxial.wavefront import (
     bound_of,
     shape_coefficients,
@@ -11,7 +12,6 @@ from p2sf.paraxial.wavefront import (
     steepest_slope,
     wavefront,
 )
-from p2sf.pupil.quadrature import disc_nodes
 from tests.support.waves import rms, waves
 
 RANDOM = waves(*np.random.default_rng(1).normal(size=(6, 200)))

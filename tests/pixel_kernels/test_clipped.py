@@ -13,7 +13,7 @@ from p2sf.pixel_kernels.pixels import PixelWindow, half_width, pixel_kernel, sam
 from p2sf.pixel_kernels.pupil_stack import cutting_rims, stack_pupils
 from p2sf.pixel_kernels.pupil_table import chebyshev, pupil_table
 from p2sf.pixel_kernels.sensor_points import sensor_map
-from p2sf.raytrace.fit import levels
+from p2sf.pupil.fit import levels
 from p2sf.scene.planning.reference import exact_pixels
 from tests.support.tiers import in_tiers
 

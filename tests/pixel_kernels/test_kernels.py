@@ -5,6 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from p2sf.disc.binning import bin_samples
+from p2sf.disc.mask import PupilMask
+from p2sf.disc.zernike import basis, basis_by_powers
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import with_f_number, with_mask
 from p2sf.lens.misalignment import displaced
@@ -26,11 +29,8 @@ from p2sf.pixel_kernels.pupil_stack import stack_pupils, with_reach
 from p2sf.pixel_kernels.pupil_table import chebyshev, lagrange, pupil_table
 from p2sf.pixel_kernels.sensor_points import sensor_map
 from p2sf.psf.huygens import huygens_psf
-from p2sf.pupil.binning import bin_samples
-from p2sf.pupil.mask import PupilMask
-from p2sf.pupil.zernike import basis, basis_by_powers
+from p2sf.pupil.fit import levels
 from p2sf.raytrace.aiming import Sources
-from p2sf.raytrace.fit import levels
 from p2sf.raytrace.pencil import pencil, to_the_rim
 from p2sf.scene.planning.reference import exact_pixels
 from p2sf.scene.scene import Channel

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from p2sf.disc.quadrature import disc_nodes
 from p2sf.errors import GeometryError
 from p2sf.image.form import Forming, form_image
 from p2sf.image.preview import BY_RAYS, preview_plan
@@ -18,7 +19,6 @@ from p2sf.pixel_kernels.frequency_grid import pupil_map
 from p2sf.pixel_kernels.pixels import PixelWindow, pixel_kernel, samples_across
 from p2sf.pixel_kernels.ray_spread import RaySpread, ray_kernel, ray_spread
 from p2sf.pixel_kernels.sensor_points import sensor_map
-from p2sf.pupil.quadrature import disc_nodes
 from p2sf.raytrace.pencil import pencil, to_the_rim
 from p2sf.scene.scene import Channel, Scene
 from p2sf.scene.sensor import Sensor

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.special import j1
 
-from p2sf.pupil.mask import PupilMask
+from p2sf.disc.mask import PupilMask
 from tests.long import combinations
 from tests.long.combinations import rendered, state_of, table, verdict
 from tests.long.method_choice import random_mask

@@ -8,6 +8,7 @@ from scipy.special import j1
 
 import p2sf
 from p2sf.conventions import centred_axis
+from p2sf.disc.mask import PupilMask
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Aperture, Lens, Surface, with_mask
 from p2sf.lens.misalignment import displaced
@@ -16,13 +17,12 @@ from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.metrics.frequency_pupil import pupil_of_coefficients
 from p2sf.metrics.measures import PupilPart, energy_in
+from p2sf.metrics.spot import landing
 from p2sf.metrics.transfer import otf_slices
 from p2sf.psf.geometric import geometric_psf
 from p2sf.psf.methods import PsfOptions, render
 from p2sf.psf.seidel import seidel_psf
-from p2sf.pupil.mask import PupilMask
-from p2sf.raytrace.spot import landing
-from tests.raytrace.test_clear_pieces import circles_apart
+from tests.pupil.test_clear_pieces import circles_apart
 from tests.support.masked_sum import masked_sum
 from tests.support.tiers import in_tiers
 from tests.support.waves import NA, WAVELENGTH_UM, r_squared, waves

@@ -3,6 +3,10 @@
 import numpy as np
 import pytest
 
+from p2sf.disc.basis import at_nodes
+from p2sf.disc.mask import PupilMask
+from p2sf.disc.quadrature import SETTLED_TOLERANCE, disc_nodes
+from p2sf.disc.zernike import basis, gradient, terms
 from p2sf.errors import GeometryError, SamplingError
 from p2sf.lens.lens import with_aim, with_mask
 from p2sf.lens.source import Source
@@ -10,12 +14,8 @@ from p2sf.lensfile.library import find_lens
 from p2sf.psf import fitted
 from p2sf.psf.fitted import counts_of, fit, fitted_psf, sum_fit
 from p2sf.psf.huygens import huygens_psf
-from p2sf.psf.sums.plane_waves import window_reach_um
-from p2sf.pupil.basis import at_nodes
-from p2sf.pupil.mask import PupilMask
-from p2sf.pupil.quadrature import SETTLED_TOLERANCE, disc_nodes
-from p2sf.pupil.zernike import basis, gradient, terms
-from p2sf.raytrace.fit import LEVELS
+from p2sf.pupil.fit import LEVELS
+from p2sf.pupil.plane_waves import window_reach_um
 from p2sf.raytrace.pencil import pencil
 from tests.support.reference import LENSES, cases
 from tests.support.tiers import in_tiers

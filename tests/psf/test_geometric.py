@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from p2sf.conventions import centred_axis
+from p2sf.disc.mask import PupilMask
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import with_mask, with_sensor
 from p2sf.lens.misalignment import displaced
@@ -13,7 +14,6 @@ from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.psf.geometric import geometric_psf, main_reach_um
-from p2sf.pupil.mask import PupilMask
 from p2sf.raytrace.pencil import pencil
 
 FILTER = PupilMask(obscuration=0.4, apodisation=0.9)

@@ -7,15 +7,15 @@ import numpy as np
 import pytest
 
 from p2sf.conventions import centred_axis
+from p2sf.disc.quadrature import disc_nodes
 from p2sf.errors import Cancelled, GeometryError
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.lens.source import Source
 from p2sf.psf.huygens import RayPupil, Watch, first_counts, huygens_psf, ray_waves
-from p2sf.psf.sums.plane_waves import window_reach_um
-from p2sf.pupil.quadrature import disc_nodes
+from p2sf.pupil.plane_waves import window_reach_um
+from p2sf.pupil.vignetting import clear_nodes, outline
 from p2sf.raytrace.pencil import pencil
-from p2sf.raytrace.vignetting import clear_nodes, outline
 from tests.support.rays.pencils import double_gauss
 from tests.support.reference import LENSES, case, huygens_rows, prescription_lens
 from tests.support.waves import r_squared, relative_l2

@@ -9,6 +9,9 @@ from scipy.ndimage import map_coordinates
 from scipy.special import j1
 
 from p2sf.conventions import centred_axis
+from p2sf.disc.mask import PupilMap, PupilMask
+from p2sf.disc.mask_nodes import mask_nodes, throughput
+from p2sf.disc.transform import sum_plane_waves
 from p2sf.errors import GeometryError, SamplingError
 from p2sf.lens.lens import with_mask
 from p2sf.lens.source import Source
@@ -21,11 +24,8 @@ from p2sf.psf.polychromatic import estimated_share
 from p2sf.psf.seidel import seidel_psf
 from p2sf.psf.spherical import spherical_pupil
 from p2sf.psf.traced import traced_psf
-from p2sf.pupil.mask import PupilMap, PupilMask
-from p2sf.pupil.mask_nodes import mask_nodes, throughput
-from p2sf.pupil.transform import sum_plane_waves
+from p2sf.pupil.seen_mask import mask_seen
 from p2sf.raytrace.pencil import pupil_rays, trace
-from p2sf.raytrace.seen_mask import mask_seen
 from tests.support.masked_sum import masked_sum
 from tests.support.tiers import in_tiers
 from tests.support.waves import NA, WAVELENGTH_UM, r_squared, relative_l2, waves

@@ -36,7 +36,7 @@ from p2sf.psf.methods import (
 )
 from p2sf.psf.pixel_integrals import render_integrated
 from p2sf.psf.prediction import CAUTION, predicted_error, seidel_sigma
-from p2sf.raytrace.fit import level_rays
+from p2sf.pupil.fit import level_rays
 from p2sf.studies.tradeoff import _point_of_trade, draw, error, front, table, to_json, tradeoff
 from tests.long.method_choice import Trial, summary, trials
 from tests.support.lenses.shaped_lenses import ODD, singlet

@@ -6,6 +6,7 @@ from math import inf
 import numpy as np
 import pytest
 
+from p2sf.disc.zernike import basis
 from p2sf.glass.media import MIRROR
 from p2sf.lens.lens import Surface, seen_from
 from p2sf.lens.misalignment import displaced, folding, with_tilted_sensor
@@ -16,11 +17,10 @@ from p2sf.psf.fitted import fitted_psf
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import render
 from p2sf.psf.traced import traced_psf
-from p2sf.pupil.zernike import basis
+from p2sf.pupil.fit import NOT_SYMMETRIC, SLOPE_WEIGHT, fit, fit_rays, level_rays
+from p2sf.pupil.vignetting import clear_nodes
 from p2sf.raytrace.aiming import pupil_rays
-from p2sf.raytrace.fit import NOT_SYMMETRIC, SLOPE_WEIGHT, fit, fit_rays, level_rays
 from p2sf.raytrace.pencil import hexapolar, pencil
-from p2sf.raytrace.vignetting import clear_nodes
 from tests.long.misaligned_methods import ASKED_OF_TRACED, outcomes
 from tests.support.rays.made_rays import made_rays
 from tests.support.rays.space_rays import fly, poses

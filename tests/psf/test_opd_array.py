@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from p2sf.conventions import centred_axis
+from p2sf.disc.quadrature import cell_areas
+from p2sf.disc.transform import matrix_dft
 from p2sf.errors import SamplingError
 from p2sf.psf.opd_array import opd_intensity
-from p2sf.pupil.quadrature import cell_areas
-from p2sf.pupil.transform import matrix_dft
 
 SIZE = 128
 CELL = (2 * np.arange(SIZE) + 1 - SIZE) / SIZE

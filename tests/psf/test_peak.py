@@ -9,6 +9,7 @@ import pytest
 from numpy.polynomial.legendre import leggauss
 
 import p2sf
+from p2sf.disc.domain import WHOLE
 from p2sf.figures.psf_data import PsfFigures
 from p2sf.lens.lens import with_f_number
 from p2sf.lens.source import Source
@@ -21,8 +22,7 @@ from p2sf.psf.pixel_integrals import render_integrated
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import seidel_psf
 from p2sf.psf.spherical import spherical_pupil
-from p2sf.psf.sums.plane_waves import BLOCK, Waves
-from p2sf.pupil.domain import WHOLE
+from p2sf.pupil.plane_waves import BLOCK, Waves
 from p2sf.raytrace.pencil import pencil
 from p2sf.setting import Request, set_up
 from tests.support.waves import waves

@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 from p2sf.conventions import UM_PER_MM, centred_axis
+from p2sf.disc.quadrature import disc_nodes
+from p2sf.disc.transform import sum_plane_waves
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Aperture, with_aim
 from p2sf.lens.source import Source
@@ -16,12 +18,10 @@ from p2sf.psf.fitted import fitted_psf
 from p2sf.psf.huygens import RayPupil, huygens_psf, sum_rays
 from p2sf.psf.methods import PsfOptions, choose, render
 from p2sf.psf.seidel import suitable_pixel_um
-from p2sf.psf.sums.plane_waves import pupil_amplitude
 from p2sf.psf.traced import traced_psf
-from p2sf.pupil.quadrature import disc_nodes
-from p2sf.pupil.transform import sum_plane_waves
+from p2sf.pupil.fit import fit
+from p2sf.pupil.plane_waves import pupil_amplitude
 from p2sf.raytrace.aiming import entrance
-from p2sf.raytrace.fit import fit
 from p2sf.raytrace.pencil import pencil, pupil_rays, trace
 from tests.support.tiers import in_tiers
 from tests.support.waves import r_squared

@@ -5,6 +5,7 @@ import pytest
 from scipy.special import j1
 
 from p2sf.conventions import slope_from_degrees
+from p2sf.disc.quadrature import SETTLED_TOLERANCE
 from p2sf.errors import GeometryError, SamplingError
 from p2sf.lens.lens import with_sensor
 from p2sf.paraxial.seidel import coefficients
@@ -19,8 +20,7 @@ from p2sf.psf.seidel import (
     suitable_pixel_um,
 )
 from p2sf.psf.seidel_stack import stack_parts
-from p2sf.psf.sums.seidel_sum import shape_terms
-from p2sf.pupil.quadrature import SETTLED_TOLERANCE
+from p2sf.psf.seidel_sum import shape_terms
 from tests.support.reference import LENSES, huygens_rows, prescription_lens
 from tests.support.tiers import in_tiers
 from tests.support.waves import NA, WAVELENGTH_UM, mirrored, r_squared, relative_l2, rms, waves

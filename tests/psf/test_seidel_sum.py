@@ -5,13 +5,13 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 
+from p2sf.disc.quadrature import chord_rows, grid_rows
+from p2sf.disc.transform import matrix_dft
 from p2sf.paraxial.wavefront import wavefront
+from p2sf.psf import seidel_sum as _seidel_sum
 from p2sf.psf.seidel import plain_intensity
 from p2sf.psf.seidel_stack import stack_parts
-from p2sf.psf.sums import seidel_sum as _seidel_sum
-from p2sf.psf.sums.seidel_sum import BATCH, intensities, kernels_for, shape_terms
-from p2sf.pupil.quadrature import chord_rows, grid_rows
-from p2sf.pupil.transform import matrix_dft
+from p2sf.psf.seidel_sum import BATCH, intensities, kernels_for, shape_terms
 from tests.support.waves import relative_l2, waves
 
 MIXED = waves(w40=2.0, w31=3.0, w22=-1.5, w20=0.5, w11=7.0, wd=-1.0)

@@ -10,6 +10,7 @@ from scipy.special import j0, j1
 
 from p2sf.camera import Camera
 from p2sf.conventions import centred_axis
+from p2sf.disc.domain import WHOLE
 from p2sf.errors import Cancelled
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface
@@ -23,9 +24,8 @@ from p2sf.psf.peak import climb
 from p2sf.psf.pixel_integrals import render_integrated
 from p2sf.psf.prediction import CAUTION
 from p2sf.psf.spherical import fresnel_number, plane_wave_error, spherical_pupil
-from p2sf.psf.sums.plane_waves import Waves
-from p2sf.psf.sums.spherical_waves import waves_from
-from p2sf.pupil.domain import WHOLE
+from p2sf.pupil.plane_waves import Waves
+from p2sf.pupil.spherical_waves import waves_from
 from p2sf.raytrace.exit_sphere import ExitSphere, exit_sphere
 from p2sf.raytrace.pencil import Rays, pencil
 from p2sf.setting import set_up_source

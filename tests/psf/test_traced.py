@@ -11,8 +11,8 @@ from p2sf.lensfile.library import find_lens
 from p2sf.psf.compare import r_squared
 from p2sf.psf.fitted import fitted_psf
 from p2sf.psf.huygens import RayPupil, Watch, first_counts, huygens_psf, ray_waves
-from p2sf.psf.smooth_pupil import interpolated_waves
 from p2sf.psf.traced import traced_psf
+from p2sf.pupil.smooth_pupil import interpolated_waves
 from p2sf.raytrace.pencil import pencil
 from tests.support.reference import LENSES, cases
 

@@ -10,6 +10,7 @@ from scipy.special import j0
 import p2sf
 from p2sf.cli import main
 from p2sf.colour.spectrum import spectrum_of
+from p2sf.disc.quadrature import whole_disc
 from p2sf.errors import GeometryError, GlassError
 from p2sf.glass.media import ConstantIndex, ShiftedIndex
 from p2sf.glass.transmittance import InternalTransmittance
@@ -21,14 +22,13 @@ from p2sf.lensfile.agf import FormulaGlass, read_agf_text
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.source_text import LensText
 from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
+from p2sf.metrics.spot import landing
 from p2sf.paraxial.lens_checks import lens_checks
 from p2sf.paraxial.seidel import coefficients
 from p2sf.pixel_kernels.illumination import light_collected
 from p2sf.psf.geometric import geometric_psf
 from p2sf.psf.polychromatic import bands_through
-from p2sf.pupil.quadrature import whole_disc
 from p2sf.raytrace.pencil import pencil
-from p2sf.raytrace.spot import landing
 from p2sf.raytrace.trace import trace
 
 UM, RIM, N = 0.5, 5.0, 1.5

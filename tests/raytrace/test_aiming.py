@@ -7,16 +7,16 @@ import numpy as np
 import pytest
 
 import p2sf
+from p2sf.disc.quadrature import disc_nodes
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface, with_aim
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens, shipped_lenses
 from p2sf.paraxial.first_order import image_distance, magnification
-from p2sf.pupil.quadrature import disc_nodes
+from p2sf.pupil.fit import fit, levels
 from p2sf.raytrace import aiming
 from p2sf.raytrace.aiming import Sources, entrance, pupil_rays
 from p2sf.raytrace.field_curves import heights
-from p2sf.raytrace.fit import fit, levels
 from p2sf.raytrace.pencil import Status, hexapolar, pencil, trace
 from tests.support.lenses.rewritten import folded
 from tests.support.rays.pencils import disc

@@ -13,11 +13,11 @@ from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
 from p2sf.paraxial.seidel import coefficients
+from p2sf.pupil.zernike_fit import zernike_fit
 from p2sf.raytrace.aiming import pupil_rays
 from p2sf.raytrace.field_curves import heights, real_foci
 from p2sf.raytrace.pencil import displayed_opd, hexapolar, pencil
 from p2sf.raytrace.trace import trace
-from p2sf.raytrace.zernike_fit import zernike_fit
 from p2sf.tolerance.criteria import harms
 from p2sf.tolerance.differentials import differentials, usual_sources, with_moved_sensor
 from p2sf.tolerance.errors_of_build import Tolerance, build

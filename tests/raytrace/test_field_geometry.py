@@ -16,9 +16,9 @@ from p2sf.lens.misalignment import displaced, folding, straighten
 from p2sf.lens.placement import Placement
 from p2sf.metrics.perfect import airy_radius_um
 from p2sf.paraxial.pupils import find_stop
+from p2sf.pupil.zernike_fit import zernike_fit
 from p2sf.raytrace.field_geometry import cone, exit_pupil
 from p2sf.raytrace.pencil import exit_radius, pencil
-from p2sf.raytrace.zernike_fit import zernike_fit
 
 UM = 0.55
 

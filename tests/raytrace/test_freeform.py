@@ -110,7 +110,7 @@ def test_rays_are_those_of_a_tracer_in_forty_digits(shape):
 
 def test_a_zernike_surface_in_the_stop_is_that_zernike_of_the_wavefront():
     """W = (n′ − n)·sag in waves, up to the square of a slope of 1e-4."""
-    from p2sf.raytrace.zernike_fit import zernike_fit
+    from p2sf.pupil.zernike_fit import zernike_fit
 
     numbers = (0.0, 0.0, 0.0, 0.0, 3e-5, -2e-5, 4e-5, 1e-5, -3e-5, 2e-5, 1e-5)
     lens = in_the_stop(ConstantIndex(1.5), None)

@@ -6,6 +6,7 @@ from math import inf
 import numpy as np
 import pytest
 
+from p2sf.disc.quadrature import whole_disc
 from p2sf.errors import GeometryError, LensFileError
 from p2sf.glass.media import MIRROR, ConstantIndex
 from p2sf.lens.freeform import XYPolynomial
@@ -17,10 +18,9 @@ from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
 from p2sf.lensfile.writing import write_lens
 from p2sf.messages import Message
-from p2sf.pupil.quadrature import whole_disc
+from p2sf.pupil.zernike_fit import zernike_fit
 from p2sf.raytrace.pencil import displayed_opd, hexapolar, pencil
 from p2sf.raytrace.trace import trace
-from p2sf.raytrace.zernike_fit import zernike_fit
 from tests.support.lenses.simple_lenses import in_the_stop
 
 FRINGE_UM = 0.273035  # half of 546.07 nm

@@ -6,14 +6,14 @@ from math import inf
 import numpy as np
 import pytest
 
+from p2sf.disc.domain import ClearNodes
+from p2sf.disc.mask import PupilMask
+from p2sf.disc.mask_nodes import mask_nodes
 from p2sf.lens.lens import with_mask
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.pupil.domain import ClearNodes
-from p2sf.pupil.mask import PupilMask
-from p2sf.pupil.mask_nodes import mask_nodes
+from p2sf.pupil.vignetting import clear_nodes, whole_nodes
 from p2sf.raytrace.pencil import hexapolar, pencil, rays_through
-from p2sf.raytrace.vignetting import clear_nodes, whole_nodes
 
 STEP = 1e-4  # of the pupil's radius
 

@@ -6,6 +6,7 @@ from math import acos, cos, hypot, pi, radians, sin, sqrt, tan
 import numpy as np
 import pytest
 
+from p2sf.disc.mask import PupilMask
 from p2sf.errors import GeometryError, LensFileError
 from p2sf.lens.lens import Aperture, Lens, Surface, seen_from
 from p2sf.lens.rim import Rim
@@ -17,10 +18,9 @@ from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
 from p2sf.lensfile.writing import lens_to_zmx
 from p2sf.paraxial.pupils import RIM_TIE
 from p2sf.psf.methods import PsfOptions, render
-from p2sf.pupil.mask import PupilMask
+from p2sf.pupil.vignetting import pupil_nodes
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.surface import Status
-from p2sf.raytrace.vignetting import pupil_nodes
 
 STOP, AWAY, FOCAL, UM = 5.0, 20.0, 100.0, 0.55
 COUNTS = 24, 64

@@ -7,6 +7,7 @@ import pytest
 from scipy.special import j0
 
 import p2sf
+from p2sf.disc.quadrature import whole_disc
 from p2sf.errors import GeometryError
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface
@@ -18,7 +19,6 @@ from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
 from p2sf.paraxial.seidel import coefficients
 from p2sf.pixel_kernels.illumination import light_collected
-from p2sf.pupil.quadrature import whole_disc
 from p2sf.raytrace.pencil import pencil
 
 RIM = 5.0

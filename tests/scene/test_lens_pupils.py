@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from p2sf.conventions import depth_of
+from p2sf.disc.mask import PupilMask
 from p2sf.errors import GeometryError
 from p2sf.files import cache
 from p2sf.lens.lens import with_f_number, with_mask
@@ -12,8 +13,7 @@ from p2sf.lensfile.library import find_lens
 from p2sf.pixel_kernels.frequency_grid import fitted_forms, pupils_of
 from p2sf.pixel_kernels.pixels import PixelWindow, pixel_kernels
 from p2sf.pixel_kernels.pupil_stack import with_reach
-from p2sf.pupil.mask import PupilMask
-from p2sf.raytrace.fit import levels_for
+from p2sf.pupil.fit import levels_for
 from p2sf.scene.planning import lens_pupils as kept
 from p2sf.scene.planning.adaptive_table import kernel_errors
 from p2sf.scene.planning.plan import plan

@@ -6,6 +6,7 @@ from math import inf
 import numpy as np
 import pytest
 
+from p2sf.disc.mask import CLEAR, PupilMask
 from p2sf.image.form import Forming, form_image
 from p2sf.image.preview import preview
 from p2sf.lens.freeform import XYPolynomial
@@ -15,7 +16,6 @@ from p2sf.lens.placement import Placement
 from p2sf.lens.shapes import RadialPolynomial
 from p2sf.lensfile.library import find_lens
 from p2sf.pixel_kernels.sensor_points import landing_mm
-from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.scene.planning.plan import plan
 from p2sf.scene.planning.verify import verify
 from p2sf.scene.scene import Channel, Scene

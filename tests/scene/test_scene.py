@@ -7,13 +7,13 @@ from math import hypot
 import numpy as np
 import pytest
 
+from p2sf.disc.mask import PupilMask
 from p2sf.errors import GeometryError, GlassError, RequestError, SamplingError
 from p2sf.image.preview import preview
 from p2sf.lens.lens import with_mask
 from p2sf.lensfile.library import find_lens
 from p2sf.messages import Message
 from p2sf.pixel_kernels.pupil_table import chebyshev, lagrange
-from p2sf.pupil.mask import PupilMask
 from p2sf.scene.files import read_scene
 from p2sf.scene.planning.bounds import check_blur
 from p2sf.scene.planning.cost import Work, predicted_cost

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import p2sf
+from p2sf.disc.domain import WHOLE
 from p2sf.errors import RequestError
 from p2sf.lensfile.library import find_lens
 from p2sf.psf.huygens import huygens_psf
-from p2sf.pupil.domain import WHOLE
 from p2sf.raytrace.pencil import on_sensor
 from p2sf.studies.listings.singlet import LENS, POINTS
 from p2sf.studies.other_sampling import SAMPLED, fft_intensity, huygens_amplitude, pupil_grid, sampled_psf

@@ -10,7 +10,7 @@ from p2sf.paraxial.pupils import find_stop
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.fitted import fitted_psf, sum_fit
 from p2sf.psf.seidel import seidel_psf
-from p2sf.raytrace.fit import levels
+from p2sf.pupil.fit import levels
 from tests.benchmarks.representations import pictures
 from tests.benchmarks.representations.coefficients import coefficient_representations
 from tests.benchmarks.representations.fits import _cut, importance

@@ -13,11 +13,11 @@ from math import factorial
 import numpy as np
 
 from p2sf.conventions import centred_axis
+from p2sf.disc.mask import PupilMask
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.paraxial.seidel import Coefficients
-from p2sf.pupil.mask import PupilMask
-from p2sf.raytrace.fit import FittedPencil
+from p2sf.pupil.fit import FittedPencil
 from p2sf.raytrace.pencil import pencil
 from tests.support.waves import r_squared
 

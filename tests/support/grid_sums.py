@@ -12,8 +12,8 @@ from scipy.special import j1
 
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
+from p2sf.pupil.seen_mask import mask_seen
 from p2sf.raytrace.pencil import pencil
-from p2sf.raytrace.seen_mask import mask_seen
 from tests.support.brute_force import mask_light, mask_opens
 
 KNOWN = 120  # rays across the disc that the others lie between

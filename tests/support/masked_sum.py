@@ -3,9 +3,9 @@
 import numpy as np
 
 from p2sf.conventions import centred_axis
+from p2sf.disc.mask import PupilMask
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.pupil.mask import PupilMask
 from p2sf.raytrace.pencil import pencil
 
 AT_ONCE = 2**17

@@ -4,9 +4,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from p2sf.disc.quadrature import whole_disc
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.pupil.quadrature import whole_disc
 from p2sf.raytrace.pencil import displayed_opd, pencil
 from tests.support.waves import rms_about_plane
 

@@ -5,6 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from p2sf.disc.mask import PupilMask
+from p2sf.disc.quadrature import whole_disc
 from p2sf.errors import GeometryError, RequestError
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, indices, with_f_number, with_mask, with_sensor
@@ -14,8 +16,6 @@ from p2sf.lensfile.library import find_lens
 from p2sf.metrics.frequency_pupil import pupil_of_rays
 from p2sf.metrics.measures import PupilPart, mtf_of
 from p2sf.psf.methods import render
-from p2sf.pupil.mask import PupilMask
-from p2sf.pupil.quadrature import whole_disc
 from p2sf.raytrace.aiming import pupil_rays
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.trace import trace

@@ -9,7 +9,7 @@ import numpy as np
 
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
-from p2sf.metrics.wavefront_map import WavefrontMap, disc, map_of_samples
+from p2sf.pupil.wavefront_map import WavefrontMap, disc, map_of_samples
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.deferred_sums import Request, SumCache
 from p2sf_explorer.compute.live import Live, ViewFunction

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 from p2sf.messages import Message, Number
+from p2sf.pupil.zernike_fit import ZernikeFit
 from p2sf.raytrace.field_curves import Foci, Heights
-from p2sf.raytrace.zernike_fit import ZernikeFit
 from p2sf_explorer.compute.live import View
 from p2sf_explorer.compute.views.chromatic import Chromatic
 from p2sf_explorer.compute.views.field import FieldView, exaggeration, grid

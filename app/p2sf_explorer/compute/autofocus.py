@@ -2,15 +2,15 @@
 
 import numpy as np
 
+from p2sf.disc.domain import ClearNodes
+from p2sf.disc.mask_nodes import mask_nodes
+from p2sf.disc.tilt import without_tilt
 from p2sf.errors import GeometryError
-from p2sf.metrics.wavefront_map import samples_of_rays
 from p2sf.paraxial.wavefront import wavefront
-from p2sf.pupil.domain import ClearNodes
-from p2sf.pupil.mask_nodes import mask_nodes
-from p2sf.pupil.tilt import without_tilt
-from p2sf.raytrace.clear_pieces import CLIPPED, LOST
+from p2sf.pupil.clear_pieces import CLIPPED, LOST
+from p2sf.pupil.seen_mask import mask_seen
+from p2sf.pupil.wavefront_map import samples_of_rays
 from p2sf.raytrace.pencil import displayed_opd, pencil
-from p2sf.raytrace.seen_mask import mask_seen
 from p2sf_explorer.compute.setup import ParaxialSetup, everywhere_by_coefficients, paraxial_setup
 from p2sf_explorer.state.state import State, change
 from p2sf_explorer.state.what_if import check_focusable

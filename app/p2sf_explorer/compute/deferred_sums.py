@@ -12,7 +12,7 @@ from p2sf.psf.cost import node_count, predicted_seconds, seconds
 from p2sf.psf.methods import AUTO_SECONDS, Choice, PsfOptions, PsfRequest, by_six, method_of, psf_of
 from p2sf.psf.result import Psf
 from p2sf.psf.spherical import plane_wave_error
-from p2sf.raytrace.fit import FittedPencil
+from p2sf.pupil.fit import FittedPencil
 from p2sf_explorer.compute.setup import ParaxialSetup
 from p2sf_explorer.state.state import State
 

@@ -7,12 +7,12 @@ from math import isfinite
 
 import numpy as np
 
+from p2sf.disc.mask import CLEAR
 from p2sf.lens.lens import Aperture, Lens, Surface, indices, with_mask, with_sensor
 from p2sf.lens.misalignment import straighten
 from p2sf.lens.placement import Motion
 from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import needed_radii
-from p2sf.pupil.mask import CLEAR
 from p2sf.raytrace.aiming import pupil_rays
 from p2sf.raytrace.surface import Status
 from p2sf.raytrace.trace import trace

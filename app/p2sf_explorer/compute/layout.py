@@ -8,6 +8,7 @@ from math import cos, inf, isfinite, radians, sin
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM, degrees_from_slope, slope_from_degrees
+from p2sf.disc.mask_outline import dark_heights
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, Surface, indices, message_if_misaligned, seen_from, with_sensor
 from p2sf.lens.meridians import meridians
@@ -15,7 +16,6 @@ from p2sf.lens.misalignment import straighten
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import RIM_TIE, default_stop, pupils, rim_radii
-from p2sf.pupil.mask_outline import dark_heights
 from p2sf.raytrace.aiming import entrance, pupil_rays
 from p2sf.raytrace.surface import AT_RIM, Status
 from p2sf.raytrace.trace import trace

@@ -8,9 +8,9 @@ from typing import Any, Generic, TypeVar
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
 from p2sf.metrics.perfect import airy_radius_um
-from p2sf.metrics.wavefront_map import WavefrontMap
 from p2sf.psf.methods import PsfRequest
 from p2sf.psf.result import Psf
+from p2sf.pupil.wavefront_map import WavefrontMap
 from p2sf_explorer.compute.deferred_sums import Request, SumCache
 from p2sf_explorer.compute.layout import Layout, layout_of
 from p2sf_explorer.compute.method import ALONE, Least, Rendered, render_state

@@ -12,7 +12,7 @@ from p2sf.messages import Message
 from p2sf.metrics.energy import blur_waves
 from p2sf.metrics.frequency_pupil import pupil_of_coefficients, pupil_of_rays
 from p2sf.paraxial.seidel import Coefficients
-from p2sf.raytrace.seen_mask import mask_seen
+from p2sf.pupil.seen_mask import mask_seen
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.sampled import by_coefficients
 

@@ -6,21 +6,21 @@ from math import floor, log10
 
 import numpy as np
 
+from p2sf.disc.mask import PupilMask, mask_slopes
 from p2sf.errors import GeometryError
 from p2sf.messages import Message
-from p2sf.metrics.wavefront_map import WavefrontMap
 from p2sf.paraxial.seidel import Coefficients, reason_against_coefficients
 from p2sf.paraxial.wavefront import steepest_slope
 from p2sf.psf.cost import coefficient_node_count, fit_node_count, nodes_beyond, seconds
 from p2sf.psf.methods import FITTED, SEIDEL, TRACED, Choice, PsfRequest, by_six, choose, psf_of
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_focus, check_image
-from p2sf.psf.smooth_pupil import all_reach
-from p2sf.pupil.mask import PupilMask, mask_slopes
-from p2sf.raytrace.fit import FittedPencil
+from p2sf.pupil.fit import FittedPencil
+from p2sf.pupil.seen_mask import mask_seen
+from p2sf.pupil.smooth_pupil import all_reach
+from p2sf.pupil.wavefront_map import WavefrontMap
 from p2sf.raytrace.pencil import Rays, pencil
 from p2sf.raytrace.ray_field import AIRY_RADIUS
-from p2sf.raytrace.seen_mask import mask_seen
 from p2sf_explorer.compute.deferred_sums import ComparisonRequest, Request, SumCache, most_samples, psf_request, slow
 from p2sf_explorer.compute.preview import (
     EDGE,

@@ -7,20 +7,20 @@ from time import perf_counter
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM
+from p2sf.disc.mask_nodes import mask_nodes
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
-from p2sf.metrics.wavefront_map import MapTerms, WavefrontMap, map_of_terms
 from p2sf.psf.fitted import counts_of, fitted_waves, psf_of_fit
 from p2sf.psf.picture import psf_of_waves
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import seidel_psf
-from p2sf.psf.sums.plane_waves import disc_words, window_reach_um
-from p2sf.pupil.mask_nodes import mask_nodes
-from p2sf.raytrace.fit import FittedPencil, Level, fit, fit_rays, level_rays, levels, levels_for
+from p2sf.pupil.fit import FittedPencil, Level, fit, fit_rays, level_rays, levels, levels_for
+from p2sf.pupil.plane_waves import disc_words, window_reach_um
+from p2sf.pupil.seen_mask import mask_seen, with_slopes
+from p2sf.pupil.vignetting import CLIPPED
+from p2sf.pupil.wavefront_map import MapTerms, WavefrontMap, map_of_terms
 from p2sf.raytrace.pencil import Rays, exit_radius, opd_on_sphere, pencil
-from p2sf.raytrace.seen_mask import mask_seen, with_slopes
-from p2sf.raytrace.vignetting import CLIPPED
 from p2sf_explorer.compute.setup import ParaxialSetup
 
 CLOSE, NEAR, FAR = 0.005, 0.02, 0.1  # RMS error in waves up to which 26 numbers do, 64 rays do, a fit does at all

@@ -1,9 +1,9 @@
 """What the window shows of the wavefront over the pupil, and what it says blurs most. No Qt in here."""
 
 from p2sf.messages import Message, Number
-from p2sf.metrics.wavefront_map import WavefrontMap, map_of, samples_of_coefficients, samples_of_rays
 from p2sf.paraxial.balance import best_focus_um, focus_causes
 from p2sf.paraxial.seidel import Coefficients
+from p2sf.pupil.wavefront_map import WavefrontMap, map_of, samples_of_coefficients, samples_of_rays
 from p2sf_explorer.compute.setup import ParaxialSetup
 from p2sf_explorer.state.scales import significant
 

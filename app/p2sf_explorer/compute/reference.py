@@ -12,7 +12,7 @@ from p2sf.psf.compare import r_squared, relative_l2
 from p2sf.psf.huygens import Watch, first_counts, sum_rays
 from p2sf.psf.methods import METHODS, PsfOptions, method_of, reference_pupil, render
 from p2sf.psf.result import Psf
-from p2sf.psf.sums.plane_waves import window_reach_um
+from p2sf.pupil.plane_waves import window_reach_um
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.method import PIXELS, window_um
 from p2sf_explorer.compute.warnings import remedy

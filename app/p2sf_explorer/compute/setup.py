@@ -7,6 +7,7 @@ from functools import lru_cache
 from math import inf, isfinite
 from pathlib import Path
 
+from p2sf.disc.mask import CLEAR, PupilMask
 from p2sf.errors import GeometryError, P2SFError
 from p2sf.lens.lens import Lens, with_mask
 from p2sf.lens.meridians import meridians
@@ -17,7 +18,6 @@ from p2sf.paraxial.positions import lens_at
 from p2sf.paraxial.pupils import ParaxialRays, Pupils, Stop, f_number, find_stop, paraxial_rays, pupils
 from p2sf.paraxial.seidel import Coefficients, coefficients
 from p2sf.psf.methods import by_six
-from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf.raytrace.field_geometry import Cone, cone
 from p2sf.raytrace.focusing import object_distance
 from p2sf.setting import AS_IN_FILE, Request, Settings, Setup, mask_of, set_up, with_field

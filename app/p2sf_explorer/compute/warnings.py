@@ -8,10 +8,10 @@ import numpy as np
 
 from p2sf.lens.lens import Lens, message_if_misaligned
 from p2sf.messages import Message, Number
-from p2sf.metrics.wavefront_map import WavefrontMap, disc
 from p2sf.paraxial.balance import strongest
 from p2sf.paraxial.lens_checks import lens_checks
 from p2sf.paraxial.wavefront import wavefront
+from p2sf.pupil.wavefront_map import WavefrontMap, disc
 from p2sf.raytrace.trace import out_of_order
 from p2sf_explorer.compute.layout import RayPath
 from p2sf_explorer.compute.setup import ParaxialSetup

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, SupportsFloat
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
+from p2sf.disc.quadrature import disc_nodes
+from p2sf.disc.tilt import rms
 from p2sf.figures.measures import Energy
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
@@ -17,8 +19,6 @@ from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf.compare import r_squared as fidelity
 from p2sf.psf.methods import render
 from p2sf.psf.result import Psf
-from p2sf.pupil.quadrature import disc_nodes
-from p2sf.pupil.tilt import rms
 from p2sf.raytrace.pencil import displayed_opd
 from p2sf.studies.paper import PIXELS, WINDOW_UM
 from p2sf_explorer.compute import live as compute

@@ -4,7 +4,7 @@ import numpy as np
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QColor, QImage, QPainter, QPainterPath
 
-from p2sf.metrics.wavefront_map import CIRCLE
+from p2sf.pupil.wavefront_map import CIRCLE
 from p2sf_explorer.charts.chart import Chart, Curve
 from p2sf_explorer.charts.colour_scale import ColourScale
 from p2sf_explorer.charts.contour import contours, interval

@@ -5,7 +5,7 @@ from PySide6.QtCore import QPointF, QRectF
 from PySide6.QtGui import QColor, QPainter
 
 from p2sf.messages import Message, Number
-from p2sf.raytrace.zernike_fit import ZernikeFit
+from p2sf.pupil.zernike_fit import ZernikeFit
 from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.reading import Reading, split_label, value_of
 from p2sf_explorer.charts.theme import Tokens

@@ -7,10 +7,10 @@ from itertools import pairwise
 
 import numpy as np
 
+from p2sf.disc.mask import PupilMask
+from p2sf.disc.mask_outline import opening_radius, vane
 from p2sf.lens.lens import Lens, Surface, indices
 from p2sf.lens.placement import Motion, along_z
-from p2sf.pupil.mask import PupilMask
-from p2sf.pupil.mask_outline import opening_radius, vane
 from p2sf_explorer.compute.glass_outlines import GLASS_INDEX, crossed_before, drawn_rims, sag, still
 
 CUT = (np.pi, 2.5 * np.pi)  # the sweep that remains, from −x over −y and +x to +y: a quarter is cut away

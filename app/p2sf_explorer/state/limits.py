@@ -2,13 +2,13 @@
 
 from math import inf
 
+from p2sf.disc.mask import CLEAR
+from p2sf.disc.zernike_terms import ORDERS
 from p2sf.io.depth_files import MEANINGS
 from p2sf.lens.lens import AIMS
 from p2sf.messages import Message
 from p2sf.parameters import CAMERA_PARAMETERS, MASK_PARAMETERS, PARAMETERS, SOURCE_PARAMETERS
 from p2sf.psf.methods import AUTO, METHODS
-from p2sf.pupil.mask import CLEAR
-from p2sf.pupil.zernike_terms import ORDERS
 from p2sf.tolerance.criteria import CRITERIA
 from p2sf.tolerance.errors_of_build import GRADES
 from p2sf_explorer.state.terms import TERMS
@@ -97,7 +97,7 @@ LISTED = {
 }
 MOST_WAVES = 1000.0
 MASK = tuple(each.name for each in MASK_PARAMETERS if each.typed)
-"""Entries named as the fields of `p2sf.pupil.mask.PupilMask`; None: as the lens file has it."""
+"""Entries named as the fields of `p2sf.disc.mask.PupilMask`; None: as the lens file has it."""
 # Whole numbers are those whose range is stated in whole numbers.
 COUNTS = tuple(each.name for each in MASK_PARAMETERS if each.typed and isinstance(each.typed[0], int))
 SMOOTH_MASK = tuple(name for name in MASK if name not in COUNTS)

@@ -10,13 +10,13 @@ from typing import Any, ClassVar
 
 from p2sf.colour.spectrum import spectrum_of
 from p2sf.conventions import FARTHEST_MM
+from p2sf.disc.mask import MaskSettings, PupilMask
+from p2sf.disc.zernike_terms import ZernikeOrder
 from p2sf.errors import P2SFError, RequestError
 from p2sf.lens.lens import USUAL_AIM
 from p2sf.messages import Alternatives, Message
 from p2sf.parameters import FARTHER
 from p2sf.psf.methods import AUTO
-from p2sf.pupil.mask import MaskSettings, PupilMask
-from p2sf.pupil.zernike_terms import ZernikeOrder
 from p2sf.tolerance.criteria import Criterion
 from p2sf.tolerance.errors_of_build import UNITS, Grade
 from p2sf_explorer.state.build_errors import BuildErrors, Compensator, check_errors

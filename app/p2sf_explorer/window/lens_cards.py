@@ -73,7 +73,7 @@ def shows_coma(lens: Lens) -> bool:
 
     Defocus does not count.
     """
-    from p2sf.raytrace.zernike_fit import zernike_fit
+    from p2sf.pupil.zernike_fit import zernike_fit
 
     depth, wave = default_state(lens.name).optics.depth_mm, lens.reference_wavelength_um
     for part in FIELD_PARTS:

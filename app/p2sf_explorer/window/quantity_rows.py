@@ -3,9 +3,9 @@
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QToolButton, QVBoxLayout, QWidget
 
+from p2sf.disc.mask import CLEAR, PupilMask
 from p2sf.errors import P2SFError
 from p2sf.parameters import PARAMETERS
-from p2sf.pupil.mask import CLEAR, PupilMask
 from p2sf_explorer.charts.theme import SPACE, Tokens
 from p2sf_explorer.compute.quantities import FIELD, MASK_QUANTITIES, WAVELENGTH, Quantity, Scale, visible_colour
 from p2sf_explorer.compute.setup import Ranges, default_state, prescription, with_state_mask

@@ -12,13 +12,13 @@ from p2sf.database.fitted import FittedDatabase, fields_of
 from p2sf.database.grid import PER_WAVELENGTH, STORED, GridDatabase, NodeGrid
 from p2sf.database.render import Database
 from p2sf.database.space import Space
+from p2sf.disc.basis import PupilBasis
+from p2sf.disc.mask import CLEAR, PupilMap, PupilMask
 from p2sf.errors import DatabaseError, RequestError
 from p2sf.files.reading import parse_json
 from p2sf.io.record import MAPS
 from p2sf.lens.lens import AIMS
-from p2sf.pupil.basis import PupilBasis
-from p2sf.pupil.mask import CLEAR, PupilMap, PupilMask
-from p2sf.raytrace.fit import Level
+from p2sf.pupil.fit import Level
 
 # The newest schema, and those of files that say nothing which came with a later one.
 SCHEMA, WITH_MASK, WITHOUT_MASK = 3, 2, 1

@@ -19,6 +19,7 @@ from p2sf.database.files.sealed import write_sealed
 from p2sf.database.points import points_of, psfs_into
 from p2sf.database.render import Database, Sampling, pixels_psf
 from p2sf.database.space import Space
+from p2sf.disc.mask import PupilMask
 from p2sf.figures.record import versions
 from p2sf.files.writing import check_ending, plain
 from p2sf.glass.media import Medium
@@ -34,7 +35,6 @@ from p2sf.paraxial.pupils import Stop, find_stop
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.psf.result import Psf, warn_of_window
 from p2sf.psf.seidel import check_samples
-from p2sf.pupil.mask import PupilMask
 from p2sf.raytrace.focusing import object_distance
 
 if TYPE_CHECKING:

@@ -60,6 +60,7 @@ from pathlib import Path
 from typing import Any, cast
 
 from p2sf.conventions import FARTHEST_MM, NM_PER_UM
+from p2sf.disc.mask import PupilMask
 from p2sf.errors import GeometryError, LensFileError
 from p2sf.files.reading import toml_table
 from p2sf.files.reasons import reason
@@ -86,7 +87,6 @@ from p2sf.lensfile.toml.surface import FINITE, OPENING, RADIUS, medium_text, rea
 from p2sf.lensfile.toml.table import Constraint, Table, find_line, list_text, shorten, text_of
 from p2sf.messages import Message
 from p2sf.paraxial.positions import matches_columns
-from p2sf.pupil.mask import PupilMask
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from p2sf.disc.mask import PupilMap, PupilMask, check_map_shape
 from p2sf.errors import P2SFError
 from p2sf.files.atomic import DAMAGED
 from p2sf.files.reading import read_array
@@ -15,7 +16,6 @@ from p2sf.files.reasons import reason
 from p2sf.lensfile.source_text import digits
 from p2sf.lensfile.toml.table import Constraint, Table, shorten
 from p2sf.messages import Message
-from p2sf.pupil.mask import PupilMap, PupilMask, check_map_shape
 
 NUMBERS, COUNTS = (tuple(field.name for field in fields(PupilMask) if field.type is kind) for kind in (float, int))
 PICTURES = ("PNG", "JPEG", "TIFF", "BMP", "GIF")

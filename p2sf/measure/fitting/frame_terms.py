@@ -8,6 +8,7 @@ from math import pi
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
+from p2sf.disc.mask import CLEAR
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens, with_mask, with_sensor
 from p2sf.lens.source import Source
@@ -20,9 +21,8 @@ from p2sf.measure.fitting.pupil_nodes import PupilNodes, counts_for, lens_nodes,
 from p2sf.paraxial.pupils import with_fixed_stop
 from p2sf.paraxial.seidel import coefficients
 from p2sf.pixel_kernels.sensor_points import SensorMap, sensor_map
-from p2sf.pupil.mask import CLEAR
-from p2sf.raytrace.fit import FittedPencil, fit
-from p2sf.raytrace.seen_mask import mask_seen
+from p2sf.pupil.fit import FittedPencil, fit
+from p2sf.pupil.seen_mask import mask_seen
 from p2sf.tolerance.errors_of_build import UNITS, Tolerance
 
 FOCUS = ("sensor_shift_um", "tilt_x_deg", "tilt_y_deg")

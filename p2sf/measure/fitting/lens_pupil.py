@@ -4,16 +4,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from p2sf.disc.domain import ClearNodes
+from p2sf.disc.mask_nodes import throughput
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.measure.fitting.pupil_model import PupilModel
 from p2sf.measure.fitting.pupil_nodes import counts_for
-from p2sf.psf.sums.plane_waves import Counts
-from p2sf.pupil.domain import ClearNodes
-from p2sf.pupil.mask_nodes import throughput
-from p2sf.raytrace.fit import fit
-from p2sf.raytrace.seen_mask import mask_seen
-from p2sf.raytrace.vignetting import pupil_nodes
+from p2sf.pupil.fit import fit
+from p2sf.pupil.plane_waves import Counts
+from p2sf.pupil.seen_mask import mask_seen
+from p2sf.pupil.vignetting import pupil_nodes
 
 SAME_SHARE = 1e-6  # of the pupil's area
 

@@ -12,13 +12,13 @@ from typing import cast
 import numpy as np
 
 from p2sf.conventions import write_protect
+from p2sf.disc.quadrature import whole_disc
+from p2sf.disc.zernike import basis
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.measure.fitting.pupil_model import rotate
 from p2sf.measure.fitting.pupil_nodes import PupilNodes
-from p2sf.pupil.quadrature import whole_disc
-from p2sf.pupil.zernike import basis
 from p2sf.raytrace.pencil import reaching
 from p2sf.tolerance.errors_of_build import GRADES, MOVES, UNITS, Kind, Tolerance, build, source_of_build
 

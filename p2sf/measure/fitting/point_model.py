@@ -11,12 +11,12 @@ from math import ceil, inf, pi
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM
+from p2sf.disc.mask import CLEAR, PupilMask
+from p2sf.disc.quadrature import gauss_legendre
 from p2sf.errors import RequestError
 from p2sf.measure.fitting.pupil_model import rotate
 from p2sf.measure.fitting.pupil_nodes import PupilNodes
 from p2sf.measure.fitting.scattered_sum import ScatteredNodes
-from p2sf.pupil.mask import CLEAR, PupilMask
-from p2sf.pupil.quadrature import gauss_legendre
 
 DTYPE = np.complex64  # errors of 1e-6 of the peak, where noise is hardly below 1e-3
 

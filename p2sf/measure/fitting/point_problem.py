@@ -5,11 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from p2sf.disc.domain import ClearNodes
+from p2sf.disc.mask import PupilMask, mask_slopes
 from p2sf.measure.fitting.point_model import PictureOptics, SpectralSum
 from p2sf.measure.fitting.pupil_model import PupilModel
 from p2sf.measure.fitting.pupil_nodes import PupilNodes, counts_for, mapped_nodes, open_nodes, paraxial_nodes
-from p2sf.pupil.domain import ClearNodes
-from p2sf.pupil.mask import PupilMask, mask_slopes
 
 PER_FRAME = 4  # x and y of the point, all of its light, background
 # A map that moves pupil points along the rim's inside, areas unchanged, leaves every PSF as it is; what is known of

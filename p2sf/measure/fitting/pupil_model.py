@@ -9,9 +9,9 @@ from functools import lru_cache
 
 import numpy as np
 
+from p2sf.disc.quadrature import disc_nodes
+from p2sf.disc.zernike import basis, terms
 from p2sf.errors import RequestError
-from p2sf.pupil.quadrature import disc_nodes
-from p2sf.pupil.zernike import basis, terms
 
 SIX = "seidel"
 MODELS = {SIX: (4, 1), "26": (6, 3), "46": (8, 5)}  # orders of the wavefront and of the pupil map, as those of a fit

@@ -5,15 +5,15 @@ from functools import lru_cache
 
 import numpy as np
 
+from p2sf.disc.domain import ClearNodes
+from p2sf.disc.mask import CLEAR, PupilMask
+from p2sf.disc.mask_nodes import mask_nodes
+from p2sf.disc.quadrature import disc_nodes, nodes_for
 from p2sf.errors import SamplingError
 from p2sf.measure.fitting.pupil_model import PupilModel, rotate
 from p2sf.messages import ParameterName
-from p2sf.psf.sums.plane_waves import Counts
-from p2sf.pupil.domain import ClearNodes
-from p2sf.pupil.mask import CLEAR, PupilMask
-from p2sf.pupil.mask_nodes import mask_nodes
-from p2sf.pupil.quadrature import disc_nodes, nodes_for
-from p2sf.raytrace.fit import FittedPencil
+from p2sf.pupil.fit import FittedPencil
+from p2sf.pupil.plane_waves import Counts
 
 MOST_NODES = 1 << 19  # beyond, a fit takes gigabytes and minutes: hundreds of waves of defocus need fewer
 SAME = 1e-9  # of the disc's amplitude, and waves

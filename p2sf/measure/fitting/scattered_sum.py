@@ -7,7 +7,7 @@ Barnett, Magland and af Klinteberg (2019). A sum over the grid is two products o
 
 import numpy as np
 
-from p2sf.pupil.quadrature import gauss_legendre
+from p2sf.disc.quadrature import gauss_legendre
 
 WIDTH = 7  # grid points that a node is spread to along each axis: errors of 1e-6 of the field's peak
 FINER = 2.0  # times the spacing of frequencies that the places can tell apart

@@ -14,13 +14,13 @@ from functools import lru_cache
 import numpy as np
 
 from p2sf.conventions import write_protect
+from p2sf.disc.mask import CLEAR, PupilMask
+from p2sf.disc.mask_nodes import mask_nodes
 from p2sf.errors import RequestError
 from p2sf.measure.fitting.point_model import PictureOptics, PixelSum, wave
 from p2sf.measure.fitting.point_problem import PointPicture
 from p2sf.measure.fitting.pupil_model import SIX, pupil_model
 from p2sf.measure.fitting.pupil_nodes import PupilNodes, counts_for, paraxial_nodes
-from p2sf.pupil.mask import CLEAR, PupilMask
-from p2sf.pupil.mask_nodes import mask_nodes
 
 CANDIDATES = 1024
 FRAME_CANDIDATES, MOMENT_STEPS = 512, 40

@@ -8,11 +8,11 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM
+from p2sf.disc.basis import at_nodes
 from p2sf.errors import GeometryError
 from p2sf.pixel_kernels.frequency_grid import ORDERS, basis_kinds
 from p2sf.pixel_kernels.pupil_stack import PupilStack, stack_pupils
 from p2sf.pixel_kernels.pupil_table import Axes, PupilTable, chebyshev, pupil_table
-from p2sf.pupil.basis import at_nodes
 
 # Numbers of fits along a side of the field, the depths or the colours: each node set contains the previous one.
 COUNTS = (2, 3, 5, 9, 17, 33)

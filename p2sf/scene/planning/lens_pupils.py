@@ -16,6 +16,9 @@ from typing import Any
 import numpy as np
 
 from p2sf.conventions import depth_of
+from p2sf.disc.basis import PupilBasis, at_nodes
+from p2sf.disc.domain import PupilDomain
+from p2sf.disc.mask import CLEAR, PupilMask
 from p2sf.errors import P2SFError
 from p2sf.files.cache import Arrays, read_cached, write_cached
 from p2sf.lens.lens import Aperture, Lens, lens_range_um
@@ -26,11 +29,8 @@ from p2sf.paraxial.seidel import coefficients
 from p2sf.pixel_kernels.frequency_grid import NODES, ORDERS, PHASE_RESIDUAL, POINT_RESIDUAL, fitted_forms, pupils_of
 from p2sf.pixel_kernels.pupil_stack import FORMS, PupilStack, frequency_basis, terms_of
 from p2sf.pixel_kernels.pupil_table import PupilTable
-from p2sf.pupil.basis import PupilBasis, at_nodes
-from p2sf.pupil.domain import PupilDomain
-from p2sf.pupil.mask import CLEAR, PupilMask
-from p2sf.raytrace.fit import levels_for
-from p2sf.raytrace.seen_mask import mask_seen
+from p2sf.pupil.fit import levels_for
+from p2sf.pupil.seen_mask import mask_seen
 from p2sf.scene.planning.adaptive_table import Ends, KnownPupils, PupilAt, adaptive_table
 from p2sf.version import program_version
 

@@ -6,16 +6,16 @@ from math import ceil
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM, centred_axis
+from p2sf.disc.quadrature import gauss_legendre
+from p2sf.disc.transform import sum_plane_waves
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.pixel_kernels.sensor_points import SensorMap
-from p2sf.psf.sums.plane_waves import counts_for, pupil_amplitude, window_reach_um
-from p2sf.pupil.quadrature import gauss_legendre
-from p2sf.pupil.transform import sum_plane_waves
+from p2sf.pupil.plane_waves import counts_for, pupil_amplitude, window_reach_um
+from p2sf.pupil.seen_mask import with_slopes
+from p2sf.pupil.vignetting import pupil_nodes
 from p2sf.raytrace.pencil import pencil, rays_through
 from p2sf.raytrace.ray_field import steepness
-from p2sf.raytrace.seen_mask import with_slopes
-from p2sf.raytrace.vignetting import pupil_nodes
 from p2sf.scene.scene import Channel
 
 PROBE = 12, 36

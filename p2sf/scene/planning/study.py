@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM
+from p2sf.disc.mask_nodes import throughput
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.pixel_kernels.channel import Colour, PointLights
@@ -21,8 +22,7 @@ from p2sf.pixel_kernels.pixels import PixelWindow, half_widths, pixel_kernels, s
 from p2sf.pixel_kernels.pupil_stack import PupilStack, with_reach
 from p2sf.pixel_kernels.pupil_table import PupilTable, chebyshev, lagrange
 from p2sf.pixel_kernels.sensor_points import SensorMap
-from p2sf.pupil.mask_nodes import throughput
-from p2sf.raytrace.fit import Level, PencilForms, levels_for
+from p2sf.pupil.fit import Level, PencilForms, levels_for
 from p2sf.scene.field_area import FieldArea, Point, field_area
 from p2sf.scene.planning.adaptive_table import KnownPupils, PupilAt, kernel_errors
 from p2sf.scene.planning.field_points import scene_maps

@@ -10,18 +10,18 @@ from typing import Any
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM
+from p2sf.disc.mask import PupilMask
 from p2sf.glass.media import MIRROR
 from p2sf.lens.lens import Aperture, Lens, Surface, with_mask
 from p2sf.lens.source import Source
 from p2sf.paraxial.first_order import cardinal_points
 from p2sf.paraxial.pupils import f_number, find_stop, paraxial_rays, pupils
 from p2sf.paraxial.seidel import seidel_sums
-from p2sf.pupil.mask import PupilMask
+from p2sf.pupil.zernike_fit import zernike_fit
 from p2sf.raytrace.aiming import pupil_rays
 from p2sf.raytrace.field_curves import heights, real_foci
 from p2sf.raytrace.pencil import displayed_opd, pencil
 from p2sf.raytrace.trace import Trace, trace
-from p2sf.raytrace.zernike_fit import zernike_fit
 from p2sf.studies.listings.row import OPTICSTUDIO, ListedNumber, numbers_of
 from p2sf.studies.other_sampling import pupil_grid
 

@@ -11,14 +11,15 @@ from typing import Any
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM
+from p2sf.disc.domain import WHOLE
+from p2sf.disc.zernike_terms import zernike_terms, zernike_values
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface, with_sensor
 from p2sf.lens.source import Source
 from p2sf.metrics.measures import mtf_of, parts_of
 from p2sf.paraxial.first_order import abcd, cardinal_points
 from p2sf.paraxial.pupils import f_number, numerical_aperture, paraxial_rays, pupils
-from p2sf.pupil.domain import WHOLE
-from p2sf.pupil.zernike_terms import zernike_terms, zernike_values
+from p2sf.pupil.zernike_fit import decompose
 from p2sf.raytrace.pencil import (
     displayed_opd,
     exit_radius,
@@ -28,7 +29,6 @@ from p2sf.raytrace.pencil import (
     pencil,
     reaching_by_surfaces,
 )
-from p2sf.raytrace.zernike_fit import decompose
 from p2sf.studies.listings.row import OPTICSTUDIO, ListedNumber, arrays_of, numbers_of, r_squared_gap
 from p2sf.studies.other_sampling import fft_intensity, huygens_amplitude, pupil_grid
 

@@ -13,7 +13,7 @@ from p2sf.database.fitted_build import build_fitted
 from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import find_stop
 from p2sf.psf.fitted import sum_fit
-from p2sf.raytrace.fit import fit, level_rays, levels
+from p2sf.pupil.fit import fit, level_rays, levels
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import steepness
 from tests.benchmarks.representations.representation import Representation

@@ -6,12 +6,12 @@ from time import process_time
 
 import numpy as np
 
+from p2sf.disc.zernike import terms
 from p2sf.lens.source import Source
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.fitted import sum_fit
 from p2sf.psf.seidel import seidel_psf
-from p2sf.pupil.zernike import terms
-from p2sf.raytrace.fit import FittedPencil, fit, levels
+from p2sf.pupil.fit import FittedPencil, fit, levels
 from tests.benchmarks.representations.fits import ADAPTIVE_WAVES
 from tests.benchmarks.representations.pictures import STEPS, quantise
 from tests.benchmarks.representations.rays import ray_representations

@@ -6,10 +6,10 @@ from time import process_time
 
 import numpy as np
 
+from p2sf.disc.quadrature import SETTLED_TOLERANCE
 from p2sf.lens.source import Source
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.traced import traced_psf
-from p2sf.pupil.quadrature import SETTLED_TOLERANCE
 from tests.benchmarks.representations.space import LensSpace, SpacePoints
 
 KEY_DIGITS = 9  # of a place's coordinates, by which a PSF is remembered

@@ -9,6 +9,7 @@ import numpy as np
 
 from p2sf.conventions import NM_PER_UM, slope_from_degrees, vergence
 from p2sf.database.space import Space
+from p2sf.disc.binning import bin_samples
 from p2sf.errors import GeometryError
 from p2sf.figures.pixel_light import ROUNDING
 from p2sf.lens.lens import Lens, check_aligned, with_f_number
@@ -17,8 +18,7 @@ from p2sf.messages import Message
 from p2sf.paraxial.first_order import cardinal_points
 from p2sf.paraxial.pupils import field_from_object_height, find_stop
 from p2sf.paraxial.seidel import coefficients
-from p2sf.pupil.binning import bin_samples
-from p2sf.raytrace.fit import fit
+from p2sf.pupil.fit import fit
 from p2sf.raytrace.ray_field import AIRY_RADIUS
 from p2sf.spans import depth_nodes
 

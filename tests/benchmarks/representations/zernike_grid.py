@@ -13,12 +13,12 @@ from time import process_time
 import numpy as np
 
 from p2sf.database.fitted import steepness
+from p2sf.disc.basis import PupilBasis
+from p2sf.disc.quadrature import disc_nodes
+from p2sf.disc.zernike import basis, terms
 from p2sf.lens.source import Source
 from p2sf.psf.fitted import sum_fit
-from p2sf.pupil.basis import PupilBasis
-from p2sf.pupil.quadrature import disc_nodes
-from p2sf.pupil.zernike import basis, terms
-from p2sf.raytrace.fit import FittedPencil, Level
+from p2sf.pupil.fit import FittedPencil, Level
 from p2sf.raytrace.pencil import pencil
 from tests.benchmarks.representations.interpolation import Counts, Rule, node_weights
 from tests.benchmarks.representations.pictures import used_counts

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from p2sf.metrics.wavefront_map import disc
+from p2sf.pupil.wavefront_map import disc
 from p2sf_explorer.charts.contour import contours, finer, interval
 
 

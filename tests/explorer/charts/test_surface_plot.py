@@ -5,7 +5,7 @@ import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtTest import QTest
 
-from p2sf.metrics.wavefront_map import disc
+from p2sf.pupil.wavefront_map import disc
 from p2sf_explorer.charts.surface_plot import HALF, HEIGHT, SurfaceView, Viewpoint, surface_picture
 from p2sf_explorer.state.camera import SceneCamera
 from p2sf_explorer.widgets.copying import data_of

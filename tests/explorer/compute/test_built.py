@@ -11,9 +11,9 @@ from p2sf.lens.misalignment import displaced, straighten
 from p2sf.lens.placement import Placement
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
-from p2sf.metrics.wavefront_map import disc
 from p2sf.paraxial.first_order import cardinal_points
 from p2sf.paraxial.pupils import stop_rim
+from p2sf.pupil.wavefront_map import disc
 from p2sf.raytrace.pencil import displayed_opd, opd_map, pencil, pupil_grid, reaching_by_surfaces
 from p2sf.tolerance.errors_of_build import Tolerance
 from p2sf.tolerance.nodal import exact_aberrations

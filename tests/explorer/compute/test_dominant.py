@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from p2sf.messages import Message
-from p2sf.metrics.wavefront_map import WavefrontMap, disc, map_of, samples_of_coefficients
 from p2sf.paraxial.balance import strongest, variance_parts
 from p2sf.paraxial.wavefront import wavefront
+from p2sf.pupil.wavefront_map import WavefrontMap, disc, map_of, samples_of_coefficients
 from p2sf.raytrace.pencil import displayed_opd, pencil, pupil_grid
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.pupil import dominant, pupil_of

@@ -5,14 +5,14 @@ from math import inf
 import numpy as np
 import pytest
 
+from p2sf.disc.mask import PupilMask
 from p2sf.errors import P2SFError
-from p2sf.metrics.wavefront_map import disc
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf.compare import r_squared
 from p2sf.psf.geometric import geometric_psf
-from p2sf.pupil.mask import PupilMask
+from p2sf.pupil.seen_mask import mask_seen
+from p2sf.pupil.wavefront_map import disc
 from p2sf.raytrace.pencil import displayed_opd, pencil, pupil_grid
-from p2sf.raytrace.seen_mask import mask_seen
 from p2sf_explorer.compute.autofocus import amount, best_shift_um, open_nodes
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.measured import measure_request

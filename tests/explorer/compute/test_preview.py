@@ -5,7 +5,7 @@ import pytest
 from p2sf.psf.compare import r_squared
 from p2sf.psf.fitted import psf_of_fit
 from p2sf.psf.methods import render
-from p2sf.raytrace.fit import fit
+from p2sf.pupil.fit import fit
 from p2sf_explorer.compute import preview as quick
 from p2sf_explorer.compute.method import window_um
 from p2sf_explorer.compute.preview import best_fit, preview_psf

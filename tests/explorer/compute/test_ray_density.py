@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from p2sf.conventions import UM_PER_MM, centred_axis
+from p2sf.disc.domain import HALF
+from p2sf.disc.mask import CLEAR
+from p2sf.disc.quadrature import disc_nodes
 from p2sf.errors import GeometryError
 from p2sf.figures.window import radius_of_energy
 from p2sf.psf.geometric import RayBlur, density, geometric_psf, over_unaberrated, polar, ray_blur
 from p2sf.psf.methods import psf_of
-from p2sf.pupil.domain import HALF
-from p2sf.pupil.mask import CLEAR
-from p2sf.pupil.quadrature import disc_nodes
 from p2sf.raytrace.pencil import pencil
 from p2sf_explorer.compute.deferred_sums import SumCache
 from p2sf_explorer.compute.live import live

@@ -6,12 +6,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from p2sf.disc.mask import PupilMask
 from p2sf.errors import P2SFError
 from p2sf.lens.lens import with_f_number, with_mask
 from p2sf.lensfile.library import find_lens, load_lens
 from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.paraxial.seidel import coefficients
-from p2sf.pupil.mask import PupilMask
 from p2sf.setting import Request, set_up
 from p2sf_explorer.compute.editing import best_focused
 from p2sf_explorer.compute.layout import layout

@@ -7,7 +7,7 @@ import pytest
 from PySide6.QtCore import QPointF, Qt
 
 from p2sf.conventions import degrees_from_slope
-from p2sf.pupil.domain import HALF
+from p2sf.disc.domain import HALF
 from p2sf.raytrace.pencil import pencil
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.sampled import in_window, optics

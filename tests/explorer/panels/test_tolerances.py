@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QApplication, QWidget
 from p2sf.errors import P2SFError
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.raytrace.zernike_fit import zernike_fit
+from p2sf.pupil.zernike_fit import zernike_fit
 from p2sf.tolerance.errors_of_build import Tolerance, usual_tolerances
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import paraxial_setup

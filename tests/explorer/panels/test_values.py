@@ -15,19 +15,19 @@ from scipy.special import j1
 
 from p2sf import encircled_energy, mtf
 from p2sf.conventions import slope_from_degrees
+from p2sf.disc.quadrature import disc_nodes
+from p2sf.disc.zernike_terms import zernike_terms, zernike_values
 from p2sf.lens.source import Source
+from p2sf.metrics.fans import opd_fan, ray_fan
 from p2sf.metrics.perfect import airy_radius_um
+from p2sf.metrics.spot import spot
 from p2sf.paraxial.pupils import paraxial_rays
 from p2sf.paraxial.seidel import chromatic_sums, coefficients, seidel_sums
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.seidel import seidel_psf
-from p2sf.pupil.quadrature import disc_nodes
-from p2sf.pupil.zernike_terms import zernike_terms, zernike_values
-from p2sf.raytrace.fans import opd_fan, ray_fan
 from p2sf.raytrace.field_curves import colour_shift, heights, real_foci, seidel_foci
 from p2sf.raytrace.pencil import pencil
-from p2sf.raytrace.spot import spot
 from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.reference import REFERENCE_TOLERANCE, measure

@@ -6,9 +6,9 @@ import io
 import numpy as np
 import pytest
 
-from p2sf.pupil.zernike_terms import zernike_terms, zernike_values
+from p2sf.disc.zernike_terms import zernike_terms, zernike_values
+from p2sf.pupil.zernike_fit import zernike_fit
 from p2sf.raytrace.pencil import displayed_opd, pencil, pupil_grid
-from p2sf.raytrace.zernike_fit import zernike_fit
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.views.zernike import rows, zernike
 from p2sf_explorer.state.state import new_state

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
+from p2sf.disc.mask import PupilMask
 from p2sf.lens.lens import Surface, with_sensor
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml.lens import lens_to_toml
-from p2sf.pupil.mask import PupilMask
 from p2sf_explorer.compute.glass_outlines import clear_rims, sag, still, vertices
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import default_state

@@ -6,11 +6,11 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
 
-from p2sf.pupil.mask import CLEAR
+from p2sf.disc.mask import CLEAR
 from p2sf_explorer.state.limits import CLEAR_PUPIL, MASK
 from p2sf_explorer.state.state import State
 from p2sf_explorer.window.quantity_rows import PupilShape, parts_of, wanted_rows
-from tests.pupil.test_mask_table import SAMPLES
+from tests.disc.test_mask_table import SAMPLES
 
 
 @pytest.fixture

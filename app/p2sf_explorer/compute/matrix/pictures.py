@@ -12,18 +12,18 @@ from p2sf.errors import GeometryError, P2SFError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message, Number
+from p2sf.metrics.fans import Fan, opd_fan, ray_fan
 from p2sf.metrics.measures import energy_in
 from p2sf.metrics.perfect import airy_radius_um
+from p2sf.metrics.spot import Spot
 from p2sf.paraxial.seidel import check_seidel
 from p2sf.psf.cost import nodes_beyond
 from p2sf.psf.geometric import geometric_psf
 from p2sf.psf.methods import SEIDEL, psf_of
 from p2sf.psf.result import Psf
 from p2sf.raytrace.aiming import Sources
-from p2sf.raytrace.fans import Fan, opd_fan, ray_fan
 from p2sf.raytrace.pencil import Rays, pencil
 from p2sf.raytrace.ray_field import AIRY_RADIUS
-from p2sf.raytrace.spot import Spot
 from p2sf_explorer.compute.deferred_sums import psf_request
 from p2sf_explorer.compute.framing import LightRings, light_rings
 from p2sf_explorer.compute.live import Live, View

@@ -7,11 +7,11 @@ from functools import lru_cache
 import numpy as np
 
 from p2sf.conventions import degrees_from_slope, slope_from_degrees
+from p2sf.disc.domain import HALF, PupilDomain, domain_of
 from p2sf.errors import P2SFError
 from p2sf.lens.lens import Lens
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.seidel import suitable_pixel_um
-from p2sf.pupil.domain import HALF, PupilDomain, domain_of
 from p2sf.tolerance.nodal import third_order
 from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.method import WINDOWS

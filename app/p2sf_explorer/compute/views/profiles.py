@@ -14,8 +14,8 @@ from p2sf.paraxial.seidel import Coefficients
 from p2sf.psf.fitted import fit, fitted_waves
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel_stack import as_fit
-from p2sf.psf.sums.plane_waves import counts_for
-from p2sf.raytrace.seen_mask import mask_seen
+from p2sf.pupil.plane_waves import counts_for
+from p2sf.pupil.seen_mask import mask_seen
 from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.measured import (
     MeasureRequest,

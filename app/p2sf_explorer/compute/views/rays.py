@@ -8,9 +8,9 @@ from p2sf.errors import P2SFError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message, Number
+from p2sf.metrics.fans import Fan, opd_fan, ray_fan
+from p2sf.metrics.spot import DRAWN_RINGS, Spot, spot
 from p2sf.raytrace.aiming import Sources
-from p2sf.raytrace.fans import Fan, opd_fan, ray_fan
-from p2sf.raytrace.spot import DRAWN_RINGS, Spot, spot
 from p2sf_explorer.compute.layout import Layout
 from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.views.first_order import Row

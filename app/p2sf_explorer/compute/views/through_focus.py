@@ -8,8 +8,8 @@ import numpy as np
 from p2sf.errors import P2SFError
 from p2sf.metrics.perfect import airy_radius_um
 from p2sf.psf.geometric import over_unaberrated
+from p2sf.pupil.seen_mask import mask_seen
 from p2sf.raytrace.field_curves import real_foci, seidel_foci
-from p2sf.raytrace.seen_mask import mask_seen
 from p2sf_explorer.compute.autofocus import best_shift_um
 from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.method import WINDOWS

@@ -4,13 +4,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from p2sf.disc.domain import ClearNodes
+from p2sf.disc.zernike_terms import ORDERS, ZernikeOrder, zernike_terms
 from p2sf.messages import Message, Number
-from p2sf.metrics.wavefront_map import WavefrontSamples, samples_of_coefficients, samples_of_rays
 from p2sf.paraxial.wavefront import wavefront
-from p2sf.pupil.domain import ClearNodes
-from p2sf.pupil.zernike_terms import ORDERS, ZernikeOrder, zernike_terms
-from p2sf.raytrace.seen_mask import mask_seen
-from p2sf.raytrace.zernike_fit import COUNTS, USUAL_TERMS, ZernikeFit, decompose, open_nodes, path_waves, pupil_opd
+from p2sf.pupil.seen_mask import mask_seen
+from p2sf.pupil.wavefront_map import WavefrontSamples, samples_of_coefficients, samples_of_rays
+from p2sf.pupil.zernike_fit import COUNTS, USUAL_TERMS, ZernikeFit, decompose, open_nodes, path_waves, pupil_opd
 from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.views.first_order import NONE, Row
 from p2sf_explorer.state.scales import with_sign

@@ -1,0 +1,173 @@
+"""Functions over the unit disc by their values on a polar grid: exact for polynomials, linear, known anywhere.
+
+f(ρ, θ) = Σ_m f_m(ρ)·cos(mθ), or with sin(mθ) if it is odd in ξ; f_m is even in ρ for even m and odd for odd m, so that
+f_m(ρ)/ρ^(m mod 2) is a polynomial in ρ². Gauss–Legendre nodes in ρ² and evenly spaced angles determine as many of both
+as there are nodes, and converge geometrically (Boyd 2001, §18.5).
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import TypeAlias
+
+import numpy as np
+from numpy.polynomial.legendre import legder, legval, legvander
+
+from p2sf.conventions import write_protect
+from p2sf.disc.domain import HALF, PupilDomain
+from p2sf.disc.quadrature import disc_axes, disc_nodes, gauss_legendre
+from p2sf.disc.zernike import basis, powers, rising_powers
+
+Counts: TypeAlias = tuple[int, int]
+"""Radii, and directions around the whole circle, an even number."""
+Pair: TypeAlias = tuple[np.ndarray, np.ndarray]
+VALUE, BY_RADIUS, BY_ANGLE = "value", "∂/∂ρ", "∂/∂θ"
+
+
+@dataclass(frozen=True, eq=False)
+class DiscFunction:
+    """Functions over the disc, each by its ``values`` at the nodes of ``domain.nodes(counts)``, (…, channels, nodes).
+
+    ``odd``: of each channel, whether it is odd in ξ by symmetry; over the whole disc that says nothing. Sums and
+    multiples of values are those of the functions.
+    """
+
+    values: np.ndarray
+    counts: Counts
+    odd: tuple[bool, ...]
+    domain: PupilDomain = HALF
+
+    def on(self, counts: Counts) -> np.ndarray:
+        """Return the functions at the nodes of other counts, (…, channels, nodes)."""
+        return self.on_polar(*disc_axes(*counts))
+
+    def on_polar(self, radius: np.ndarray, theta: np.ndarray, what: str = VALUE) -> np.ndarray:
+        """Return the functions, or ∂/∂ρ or ∂/∂θ of them, at radii × angles, (…, channels, points).
+
+        ``theta`` counts from +η towards the side on which a point lies; points at −ξ, if the domain has any, come last.
+        """
+        sides = self.domain.halves
+        found = np.zeros((*self.values.shape[:-1], len(sides), radius.size * theta.size))
+        for channel, odd, part in self._parts():  # one by one: of millions of points each takes 50 MB
+            signs = np.array(sides)[:, None] if odd else 1
+            found[..., channel, :, :] += signs * _onto(part, self.counts, (radius, theta), odd, what)[..., None, :]
+        return found.reshape(*self.values.shape[:-1], -1)
+
+    def at(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
+        """Return the functions at points of the disc, each (points,), on whichever side: (…, channels, points).
+
+        As polynomials of the `order` that the nodes determine, which are the functions where these are polynomials.
+        """
+        squares, heights = rising_powers(xi * xi, self.order // 2 + 1), rising_powers(eta, self.order + 1)
+        found = np.zeros((*self.values.shape[:-1], xi.size))
+        for odd, table in self._tables:
+            part = np.einsum("...bn,bn->...n", table @ squares, heights)
+            part[..., odd, :] *= xi
+            found += part
+        return found
+
+    @property
+    def order(self) -> int:
+        """Return the highest order of polynomials all products of which the rule of its nodes integrates exactly."""
+        return min(2 * self.counts[0], self.counts[1] // 2) - 1
+
+    def gradient(self) -> Pair:
+        """Return ∂/∂ξ and ∂/∂η at its own nodes, each (…, channels, nodes)."""
+        axes, nodes = disc_axes(*self.counts), self.domain.nodes(self.counts)
+        square = nodes.xi**2 + nodes.eta**2
+        by_radius, by_angle = (self.on_polar(*axes, what) for what in (BY_RADIUS, BY_ANGLE))
+        outwards, around = by_radius / np.sqrt(square), by_angle * np.sign(nodes.xi) / square
+        return outwards * nodes.xi + around * nodes.eta, outwards * nodes.eta - around * nodes.xi
+
+    @cached_property
+    def _tables(self) -> list[tuple[list[int], np.ndarray]]:
+        """Return c[…, channel, b, a] of ηᵇ·ξ²ᵃ, times ξ for the channels named before it; over the whole disc twice."""
+        shape = *self.values.shape[:-1], self.order + 1, self.order // 2 + 1
+        tables: list[tuple[list[int], np.ndarray]] = [([], np.empty(shape)) for _ in self.domain.halves]
+        for k, (channel, odd, part) in enumerate(self._parts()):
+            of_odd, table = tables[k % len(tables)]
+            of_odd += [channel] * odd
+            # Terms first: those of high order, whose powers are large, are small.
+            terms = part @ _means(self.counts, self.order, odd)
+            table[..., channel, :, :] = np.tensordot(terms, powers(self.order, odd), 1).swapaxes(-1, -2)
+        return tables
+
+    def _parts(self) -> Iterator[tuple[int, bool, np.ndarray]]:
+        """Yield, of each channel, what is even in ξ of it and what is odd, by the values on the half ξ > 0."""
+        halves = self.domain.halves
+        sides = self.values.reshape(*self.values.shape[:-1], len(halves), -1)
+        for channel, own in enumerate(self.odd):
+            for odd in self.domain.parities(own):
+                signs = np.array(halves)[:, None] if odd else 1
+                yield channel, odd, (signs * sides[..., channel, :, :]).sum(-2) / len(halves)
+
+
+def _onto(values: np.ndarray, counts: Counts, axes: Pair, odd: bool, what: str) -> np.ndarray:
+    """Return a function at radii × angles, (…, radii·angles), from its values at the nodes of the half disc."""
+    radius, theta = axes
+    up, across = _matrices(counts, (radius.tobytes(), theta.tobytes()), odd, what)
+    grid = values.reshape(*values.shape[:-1], counts[0], counts[1] // 2)
+    # Even and odd harmonics separately, side by side in ``across`` and in ``up``.
+    both = grid @ across
+    found: np.ndarray = up @ np.concatenate([both[..., : theta.size], both[..., theta.size :]], axis=-2)
+    return found.reshape(*values.shape[:-1], -1)
+
+
+@lru_cache(maxsize=32)
+def _means(counts: Counts, order: int, odd: bool) -> np.ndarray:
+    """Return the matrix (nodes, terms) from values on the half disc to orthonormal polynomials: means of products."""
+    nodes = disc_nodes(*counts)
+    return write_protect((basis(order, nodes.xi, nodes.eta, odd) * nodes.weight).T)
+
+
+@lru_cache(maxsize=32)
+def _matrices(counts: Counts, axes: tuple[bytes, bytes], odd: bool, what: str) -> Pair:
+    """Return the matrices (radii, 2·radial) and (angular/2, 2·angles) between which `_onto` takes values.
+
+    ``axes``: radii and angles as bytes. The first halves are for even harmonics, the others for odd ones.
+    """
+    rho, theta = map(np.frombuffer, axes)
+    analysis, number = _harmonics(counts[1], odd)
+    wave, at_odd = _waves(number, theta, odd, what == BY_ANGLE), number % 2 == 1
+    across = np.concatenate([analysis[:, some] @ wave[some] for some in (~at_odd, at_odd)], axis=1)
+    # Of odd harmonics ρ·polynomial of what is divided by ρ at the nodes.
+    polynomial, slope = _polynomials(counts[0], rho)
+    linear = polynomial + rho[:, None] * slope if what == BY_RADIUS else rho[:, None] * polynomial
+    even = slope if what == BY_RADIUS else polynomial
+    return write_protect(np.concatenate([even, linear / disc_axes(*counts)[0]], axis=1)), write_protect(across)
+
+
+@lru_cache(maxsize=8)
+def _harmonics(angular: int, odd: bool) -> Pair:
+    """Return the matrix (angles, harmonics) from values over half a turn to their harmonics, and the harmonics."""
+    half = angular // 2
+    theta = (np.arange(half) + 0.5) * (np.pi / half)
+    number = np.arange(1, half + 1) if odd else np.arange(half)
+    matrix = _waves(number, theta, odd).T * (2 / half)
+    matrix[:, number % half == 0] /= 2  # of the constant, and of the sine that alternates
+    return write_protect(matrix), write_protect(number)
+
+
+def _waves(number: np.ndarray, theta: np.ndarray, odd: bool, slope: bool = False) -> np.ndarray:
+    """Return cos(mθ), or sin if ``odd``, or the slope of either, (harmonics, angles)."""
+    turns = np.outer(number, theta)
+    if not slope:
+        return np.asarray(np.sin(turns) if odd else np.cos(turns))
+    return number[:, None] * (np.cos(turns) if odd else -np.sin(turns))
+
+
+@lru_cache(maxsize=32)
+def _legendre(radial: int) -> np.ndarray:
+    """Return the matrix (n, radial) from a polynomial's values at the Gauss nodes in ρ² to its Legendre coefficients.
+
+    (2n + 1)/2·⟨f, Pₙ⟩, which the rule integrates exactly (A&S 22.2.10).
+    """
+    place, weight = gauss_legendre(radial)
+    return write_protect(((legvander(place, radial - 1) * weight[:, None]) * (np.arange(radial) + 0.5)).T)
+
+
+def _polynomials(radial: int, rho: np.ndarray) -> Pair:
+    """Return the matrices (radii, radial) from a polynomial's values at the Gauss nodes to values and ∂/∂ρ at radii."""
+    place, terms = 2 * np.square(rho) - 1, _legendre(radial)
+    slopes = legval(place, legder(np.eye(radial))).T if radial > 1 else np.zeros((rho.size, 1))
+    return legvander(place, radial - 1) @ terms, (4 * rho[:, None]) * (slopes @ terms)

@@ -1,0 +1,429 @@
+"""The wavefront over the part of the pupil that passes light, as a picture and as numbers (handbook 3.4).
+
+The wavefront of the lens is a sum of Zernike terms, fitted by least squares where rays arrive: over the whole disc one
+product with a fixed matrix. What rims, lost rays and the mask in the stop leave open is the same for every wavefront;
+picture, RMS and the shares of the variance are read off there.
+"""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from functools import lru_cache
+
+import numpy as np
+
+from p2sf.conventions import write_protect
+from p2sf.disc.domain import HALF, WHOLE, ClearNodes, PupilDomain
+from p2sf.disc.mask import PupilMask
+from p2sf.disc.mask_cells import inside_share, open_share
+from p2sf.disc.mask_nodes import mask_nodes
+from p2sf.disc.mask_outline import obstructions, opening
+from p2sf.disc.tilt import rms
+from p2sf.disc.zernike import basis, powers, terms
+from p2sf.disc.zernike_terms import family, zernike_terms, zernike_values
+from p2sf.errors import GeometryError
+from p2sf.lens.lens import Lens
+from p2sf.lens.source import Source
+from p2sf.paraxial.seidel import Coefficients
+from p2sf.paraxial.wavefront import wavefront
+from p2sf.pupil.clear_pieces import CLIPPED, LOST, holes_of
+from p2sf.pupil.clear_rim import ClearRim, clear_rim
+from p2sf.pupil.seen_mask import mask_seen
+from p2sf.pupil.zernike_fit import USUAL_TERMS
+from p2sf.raytrace.pencil import displayed_opd, exit_radius, opd_on_sphere, pencil
+
+SAMPLES = {"preview": 128, "settled": 384}  # across the picture; an enlarged panel has some thousand pixels
+ORDERS = {"preview": 8, "settled": 18}  # of the fit
+RAYS = {"preview": (7, 20), "settled": (16, 44)}  # radii and directions: exact for products of two terms of that order
+RIMS = {"preview": (40, 2), "settled": (128, 4)}  # directions and rounds of `clear_rim`
+RADII = {"preview": 7, "settled": 12}  # of the nodes over a clipped pupil
+CELLS = {"preview": 40, "settled": 96}  # across a pupil that ends at rims and behind a mask
+TRACED_CELLS = {"preview": 64, "settled": 192}  # across one with holes
+TURN = np.linspace(0, 2 * np.pi, 241)
+CIRCLE = np.stack([np.sin(TURN), np.cos(TURN)])
+RIM_RAYS = 5  # every so many points of that circle are traced
+EDGE_STEP = 1e-9
+ON_EDGE = 1e-9  # beyond an edge, and still on it
+
+
+@dataclass(frozen=True, eq=False)
+class WavefrontMap:
+    """W in waves over the square about the pupil, (y, x), NaN where the pupil's part that passes light is a pixel away.
+
+    ``rms`` without piston and tilt and ``peak_to_valley``, in waves; ``outline``: ξ and η of the part that
+    passes light, closed, (2, points); ``clear``: that part of the pupil's area; ``parts``: aberration → its part of the
+    variance, waves², piston and tilt left out; ``rest``: what these parts leave. Of a mask in the stop ``iris`` is its
+    opening, ``obstructions`` what stands in that, closed lines too, and ``shade`` the amplitude that passes, at the
+    samples; its phase is part of W, and what it covers counts nowhere.
+    """
+
+    waves: np.ndarray
+    rms: float
+    peak_to_valley: float
+    kind: str
+    outline: np.ndarray = field(default_factory=lambda: CIRCLE)
+    clear: float = 1.0
+    parts: Mapping[str, float] = field(default_factory=dict)
+    rest: float = 0.0
+    iris: np.ndarray = field(default_factory=lambda: CIRCLE)
+    obstructions: tuple[np.ndarray, ...] = ()
+    shade: np.ndarray | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class PassingCells:
+    """Which cells of a grid over the pupil let rays pass, (count, count): a clear part of any shape, as `ClearRim`."""
+
+    passed: np.ndarray
+
+    def outline(self) -> np.ndarray:
+        """Return the pupil's own rim: that of the part has steps."""
+        return CIRCLE
+
+    def excess(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
+        """Return −1 at points in cells that let rays pass, and 1 elsewhere."""
+        count = len(self.passed)
+        row, column = (np.clip(((at + 1) * count / 2).astype(np.intp), 0, count - 1) for at in (eta, xi))
+        return np.where(self.passed[row, column], -1.0, 1.0)
+
+    def nodes(self, radii: int) -> ClearNodes:
+        """Return the middles of these cells, whatever the ``radii`` of other parts."""
+        xi, eta, inside = disc(len(self.passed))
+        even = np.full(int(self.passed.sum()), 1 / self.passed.sum())
+        return ClearNodes(xi[self.passed], eta[self.passed], even, float(even.size / inside.sum()), domain=WHOLE)
+
+
+Clear = ClearRim | PassingCells
+
+
+@dataclass(frozen=True, eq=False)
+class WavefrontSamples:
+    """Nodes over the part of the pupil where rays arrive, W there in waves, and that part where it is not the disc.
+
+    ``domain``: HALF for a wavefront that is even in ξ.
+    """
+
+    nodes: ClearNodes
+    waves: np.ndarray
+    domain: PupilDomain
+    clear: Clear | None = None
+
+
+@lru_cache(maxsize=8)
+def disc(count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return ξ, η of ``count``² samples over the pupil's square, and which of them lie inside."""
+    axis = _centres(count)
+    xi, eta = np.meshgrid(axis, axis)
+    return xi, eta, xi**2 + eta**2 <= 1
+
+
+def _centres(count: int) -> np.ndarray:
+    """Return the centres of ``count`` even cells from −1 to 1."""
+    return (2 * np.arange(count) + 1 - count) / count
+
+
+def map_of_samples(waves: np.ndarray, inside: np.ndarray, kind: str) -> WavefrontMap:
+    """Return a map of samples with RMS and peak-to-valley over those inside that have a value."""
+    inside = inside & np.isfinite(waves)
+    kept = waves[inside]
+    if kept.size == 0:
+        return WavefrontMap(np.full(waves.shape, np.nan), np.nan, np.nan, kind)
+    xi, eta, _ = disc(len(waves))
+    blur = rms(kept, np.full(kept.size, 1 / kept.size), np.stack([eta[inside], xi[inside]]))
+    return WavefrontMap(np.where(inside, waves, np.nan), blur, float(np.ptp(kept)), kind)
+
+
+@dataclass(frozen=True)
+class MapTerms:
+    """Zernike terms up to the order of a quality, as the domain of the lens has them: even in ξ, then odd."""
+
+    quality: str
+    domain: PupilDomain
+
+    @property
+    def parities(self) -> tuple[bool, ...]:
+        """Return whether the terms of each group are odd."""
+        return self.domain.parities(False)
+
+    @property
+    def degrees(self) -> list[tuple[int, int]]:
+        """Return (n, m) of each term."""
+        return [pair for odd in self.parities for pair in terms(ORDERS[self.quality], odd)]
+
+    def at(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
+        """Return the terms at pupil points, (terms, points)."""
+        values: np.ndarray = np.concatenate([basis(ORDERS[self.quality], xi, eta, odd=odd) for odd in self.parities])
+        return values
+
+    def sampled(self, amounts: np.ndarray) -> np.ndarray:
+        """Return their sum on the square: powers of η times powers of ξ², of odd ones times ξ, mirrored at ξ = 0."""
+        left, right, first = 0.0, 0.0, 0
+        for odd in self.parities:
+            along, across, table = _power_tables(self.quality, odd)
+            half = along @ np.tensordot(amounts[first : first + len(table)], table, 1).T @ across
+            left, right, first = left + (-half if odd else half), right + half, first + len(table)
+        waves: np.ndarray = np.concatenate([np.asarray(left)[:, ::-1], np.asarray(right)], axis=1)
+        return waves
+
+    def fitted(self, samples: WavefrontSamples) -> np.ndarray:
+        """Return how much of each term a wavefront has, by least squares."""
+        if samples.clear is None:
+            whole: np.ndarray = _projection(self) @ samples.waves
+            return whole
+        root = np.sqrt(samples.nodes.weight)
+        table = self.at(samples.nodes.xi, samples.nodes.eta) * root
+        found: np.ndarray = np.linalg.lstsq(table.T, samples.waves * root, rcond=1e-12)[0]
+        return found
+
+
+@lru_cache(maxsize=4)
+def _power_tables(quality: str, odd: bool) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return ηᵇ of the rows, ξ²ᵃ of the right half's columns, and the terms as powers, (terms, a, b).
+
+    Of the ``odd`` terms they are those times ξ.
+    """
+    axis, table = _centres(SAMPLES[quality]), powers(ORDERS[quality], odd)
+    right = axis[axis.size // 2 :]
+    across = np.vander(right**2, table.shape[1], increasing=True).T * (right if odd else 1.0)
+    return np.vander(axis, table.shape[2], increasing=True), across, table
+
+
+@lru_cache(maxsize=4)
+def _projection(known: MapTerms) -> np.ndarray:
+    """Return the matrix from waves at nodes over the disc to the terms: their means over it, (terms, nodes)."""
+    nodes = known.domain.nodes(RAYS[known.quality])
+    return write_protect(known.at(nodes.xi, nodes.eta) * nodes.weight)
+
+
+def samples_of_rays(lens: Lens, source: Source, quality: str, clip: bool = False) -> WavefrontSamples:
+    """Return the displayed OPD of exact rays, where rims and lost rays let any pass.
+
+    ``quality``: "preview" or "settled". Raises GeometryError where no ray reaches the sensor.
+    """
+    nodes = lens.pupil_domain.nodes(RAYS[quality])
+    rays = pencil(lens, source, nodes.xi, nodes.eta)
+    waves = opd_on_sphere(rays, exit_radius(lens, source, rays))
+    if np.isfinite(waves).all() and not (clip and _clipped(lens, source, nodes)):
+        return WavefrontSamples(nodes, waves, lens.pupil_domain)
+    holed = clip and holes_of(lens)
+    clear = _passing(lens, source, quality) if holed else clear_rim(lens, source, clip, *RIMS[quality])
+    nodes = clear.nodes(RADII[quality])
+    return WavefrontSamples(nodes, displayed_opd(lens, source, nodes.xi, nodes.eta), lens.pupil_domain, clear)
+
+
+def samples_of_coefficients(six: Coefficients, quality: str) -> WavefrontSamples:
+    """Return W of the six coefficients, which know no rims."""
+    nodes = HALF.nodes(RAYS[quality])
+    return WavefrontSamples(nodes, np.asarray(wavefront(six, nodes.xi, nodes.eta)), HALF)
+
+
+def _clipped(lens: Lens, source: Source, nodes: ClearNodes) -> bool:
+    """Return whether a rim stops a ray through the nodes or through the pupil's own rim."""
+    rim = CIRCLE[:, ::RIM_RAYS]
+    return not pencil(lens, source, np.append(nodes.xi, rim[0]), np.append(nodes.eta, rim[1]), clip=True).passed.all()
+
+
+def _passing(lens: Lens, source: Source, quality: str) -> PassingCells:
+    """Return the cells of the pupil that rims and holes let pass."""
+    xi, eta, inside = disc(TRACED_CELLS[quality])
+    passed = np.zeros(inside.shape, bool)
+    passed[inside] = pencil(lens, source, xi[inside], eta[inside], clip=True).passed
+    if not passed.any():
+        raise GeometryError(CLIPPED, parameter="clip")
+    return PassingCells(passed)
+
+
+def map_of(
+    lens: Lens, source: Source, samples: WavefrontSamples, quality: str, kind: str = "exact rays"
+) -> WavefrontMap:
+    """Return the map of a wavefront behind the mask in the lens's stop. Raises GeometryError where nothing is open."""
+    known = MapTerms(quality, samples.domain)
+    return map_of_terms(lens, source, known, known.fitted(samples), samples.clear, kind)
+
+
+def map_of_terms(
+    lens: Lens,
+    source: Source,
+    known: MapTerms,
+    found: np.ndarray,
+    clear: Clear | None = None,
+    kind: str = "exact rays",
+) -> WavefrontMap:
+    """Return the map of a wavefront of the lens, ``found`` of the terms ``known``, behind the mask in its stop."""
+    mask, per_um = mask_seen(lens, source), 1 / source.wavelength_um
+    part = _whole_part(mask, known) if clear is None else _open_part(mask, known, clear)
+    shown = known.sampled(found) - per_um * part.path_um
+    at_edges = part.at_edges.waves(found, per_um)
+    highest = np.max(shown, initial=at_edges.max(initial=-np.inf), where=part.open)
+    lowest = np.min(shown, initial=at_edges.min(initial=np.inf), where=part.open)
+    shown[part.beyond] = np.nan
+    waves = part.root * part.at_parts.waves(found, per_um)
+    amounts = part.columns.T @ waves
+    left = waves - part.columns @ amounts
+    parts = families((n, m, square) for (n, m), square in zip(part.degrees, (amounts**2).tolist(), strict=True))
+    rest = float(left @ left)
+    blur = float(np.sqrt(sum(parts.values()) + rest))  # the terms are orthogonal
+    if part.at_nodes:
+        blur = rms(part.at_nodes.waves(found, per_um), part.nodes.weight, part.nodes.axes)
+    return WavefrontMap(
+        shown,
+        blur,
+        float(highest - lowest),
+        kind,
+        outline=CIRCLE if clear is None else clear.outline(),
+        clear=part.nodes.share,
+        parts=parts,
+        rest=rest,
+        iris=part.iris,
+        obstructions=part.obstructions,
+        shade=part.shade,
+    )
+
+
+def families(amounts: Iterable[tuple[int, int, float]]) -> dict[str, float]:
+    """Return (n, m, part of the variance) added up by the aberration's name; piston and tilt are left out."""
+    parts: dict[str, float] = {}
+    for n, m, part in amounts:
+        if n > 1:
+            name = family(n, abs(m))
+            parts[name] = parts.get(name, 0.0) + part
+    return parts
+
+
+@dataclass(frozen=True, eq=False)
+class TermsAt:
+    """The terms of a wavefront at points, (terms, points), and the path of a mask there, µm."""
+
+    terms: np.ndarray
+    path_um: np.ndarray | float
+
+    def waves(self, found: np.ndarray, per_um: float) -> np.ndarray:
+        """Return W behind the mask, waves: a delay makes the path longer, and W smaller."""
+        waves: np.ndarray = found @ self.terms - per_um * self.path_um
+        return waves
+
+
+@dataclass(frozen=True, eq=False)
+class OpenPart:
+    """What rims and mask leave open of the pupil, for maps: all that no wavefront and no wavelength changes.
+
+    The terms and the path from the chief ray's, µm, at the open sides of edges, at nodes of positive weights, over
+    which ``columns`` (nodes, terms) times the roots of weights are orthogonal, of ``degrees`` (n, m), and at ``nodes``
+    where these are others, as behind vanes.
+    """
+
+    nodes: ClearNodes
+    at_nodes: TermsAt | None
+    at_edges: TermsAt
+    at_parts: TermsAt
+    root: np.ndarray
+    columns: np.ndarray
+    degrees: list[tuple[int, int]]
+    path_um: np.ndarray | float
+    open: np.ndarray
+    beyond: np.ndarray
+    iris: np.ndarray
+    obstructions: tuple[np.ndarray, ...]
+    shade: np.ndarray | None
+
+
+@lru_cache(maxsize=8)
+def _whole_part(mask: PupilMask, known: MapTerms) -> OpenPart:
+    return _open_part(mask, known, None)
+
+
+def _open_part(mask: PupilMask, known: MapTerms, clear: Clear | None) -> OpenPart:
+    """Return what a mask and the clear part leave open. Raises GeometryError where that is nothing.
+
+    Zernike's terms are made orthogonal over it (`p2sf.pupil.zernike_fit`), vanes set aside: the nodes then have
+    positive weights, as the decomposition needs.
+    """
+
+    def path_um(xi: np.ndarray, eta: np.ndarray) -> np.ndarray | float:
+        return mask.path_um(xi, eta) - mask.path_um(np.zeros(1), np.zeros(1)) if mask.phased else 0.0
+
+    def at(xi: np.ndarray, eta: np.ndarray) -> TermsAt:
+        return TermsAt(known.at(xi, eta), path_um(xi, eta))
+
+    nodes, parts = _figure_nodes(mask, known, clear)
+    root = np.sqrt(parts.weight)
+    if mask.clear and clear is None:  # where they are orthogonal as they are
+        degrees, values = known.degrees, known.at(parts.xi, parts.eta)
+    else:
+        used = tuple(term for term in zernike_terms("noll", USUAL_TERMS) if term.odd in parts.domain.parities(False))
+        degrees, values = [(term.n, term.m) for term in used], zernike_values(used, parts.xi, parts.eta)
+    open_, beyond = _on_samples(mask, clear, SAMPLES[known.quality])
+    return OpenPart(
+        nodes=nodes,
+        at_nodes=None if parts is nodes else at(nodes.xi, nodes.eta),
+        at_edges=at(*_open_edges(mask, clear)),
+        at_parts=at(parts.xi, parts.eta),
+        root=root,
+        columns=np.linalg.qr((values * root).T)[0],
+        degrees=degrees,
+        path_um=path_um(*disc(SAMPLES[known.quality])[:2]),
+        open=open_,
+        beyond=beyond,
+        iris=opening(mask),
+        obstructions=obstructions(mask),
+        shade=_shade(mask, SAMPLES[known.quality]),
+    )
+
+
+def _figure_nodes(mask: PupilMask, known: MapTerms, clear: Clear | None) -> tuple[ClearNodes, ClearNodes]:
+    """Return nodes over what is open, and such of positive weights, vanes set aside where nothing else ends it."""
+    if clear is None and mask.clear:
+        return (known.domain.nodes(RAYS[known.quality]),) * 2
+    if clear is None:
+        nodes, parts = (mask_nodes(some, *RAYS[known.quality]) for some in (mask, mask.without_vanes))
+        over = known.domain.over(nodes)
+        return over, over if parts is nodes else known.domain.over(parts)
+    if mask.clear:
+        return (clear.nodes(RADII[known.quality]),) * 2
+    return (_open_cells(mask, clear, CELLS[known.quality]),) * 2
+
+
+def _open_cells(mask: PupilMask, clear: Clear, count: int) -> ClearNodes:
+    """Return the cells of a grid that the clear part and the mask leave open, edge cells by their open share."""
+    xi, eta, _ = disc(count)
+    width = np.full(xi.shape, 2 / count)
+    share = open_share(mask, xi, eta, width) * inside_share(-clear.excess(xi, eta), width)
+    kept = share > 0
+    if not kept.any():
+        raise GeometryError(LOST)
+    total = float(share.sum())
+    return ClearNodes(xi[kept], eta[kept], share[kept] / total, total * (2 / count) ** 2 / np.pi, domain=WHOLE)
+
+
+def _on_samples(mask: PupilMask, clear: Clear | None, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return which samples of the square are open, and which more than a pixel away from all that is."""
+    xi, eta, _ = disc(count)
+    covered, pixel = ~mask.opens(xi, eta), np.sqrt(2) * 2 / count
+    excess = np.hypot(xi, eta) - 1 if clear is None else clear.excess(xi, eta)
+    return (excess <= 0) & ~covered, _all_around(covered) | (excess >= pixel)
+
+
+def _open_edges(mask: PupilMask, clear: Clear | None) -> np.ndarray:
+    """Return ξ and η of points on edges, or beside those of a mask, where these are open, (2, points)."""
+    rim = CIRCLE if clear is None else clear.outline()
+    drawn = [opening(mask), *obstructions(mask)] if mask.edged else []
+    beside = np.concatenate([rim, *(edge * part for edge in drawn for part in (1 - EDGE_STEP, 1 + EDGE_STEP))], axis=1)
+    beyond = np.hypot(*beside) - 1 if clear is None else clear.excess(*beside)
+    return beside[:, (beyond <= ON_EDGE / 2) & mask.opens(*beside)]
+
+
+def _all_around(covered: np.ndarray) -> np.ndarray:
+    """Return the covered samples whose neighbours on all sides are covered: the painted edge then has no gap."""
+    padded = np.pad(covered, 1, constant_values=True)
+    sides = [np.roll(padded, (row, column), (0, 1)) for row in (-1, 0, 1) for column in (-1, 0, 1)]
+    within: np.ndarray = np.logical_and.reduce(sides)[1:-1, 1:-1]
+    return within
+
+
+def _shade(mask: PupilMask, count: int) -> np.ndarray | None:
+    """Return the amplitude that passes over its largest, at the samples; None where it is the same everywhere."""
+    if not mask.shaded:
+        return None
+    xi, eta, inside = disc(count)
+    amplitude = np.abs(mask.amplitude(xi, eta))
+    shade: np.ndarray = np.minimum(amplitude / (float(amplitude[inside].max()) or 1.0), 1.0)
+    return shade

@@ -1,0 +1,93 @@
+"""Functions by their values at nodes: polynomials are met exactly anywhere, and smooth functions geometrically."""
+
+import numpy as np
+import pytest
+
+from p2sf.disc.disc_function import BY_ANGLE, BY_RADIUS, DiscFunction
+from p2sf.disc.domain import HALF, WHOLE
+
+RHO, THETA = np.array([0.0, 0.2, 0.71, 1.0]), np.linspace(0, np.pi, 7)
+COUNTS = 4, 16  # radii enough for ρ⁷, angles enough for seven harmonics
+
+
+def even(xi, eta):
+    return 1 + xi**2 * eta - 3 * eta**7 + xi**6 * eta - 0.3 * eta**2
+
+
+def odd(xi, eta):
+    return xi * (0.5 + eta**6 - xi**2 * eta**4)
+
+
+def neither(xi, eta):
+    return even(xi, eta) + odd(xi, eta)
+
+
+def of(domain, *functions, counts=COUNTS):
+    """Return functions by their values at the nodes of a domain; those of HALF are even but for `odd`."""
+    nodes = domain.nodes(counts)
+    values = np.stack([function(nodes.xi, nodes.eta) for function in functions])
+    return DiscFunction(values, counts, tuple(function is odd for function in functions), domain)
+
+
+CASES = [(HALF, (even, odd)), (WHOLE, (neither, odd, even))]
+
+
+@pytest.mark.parametrize(("domain", "functions"), CASES)
+def test_polynomials_within_its_degree_are_met_on_circles(domain, functions):
+    found = of(domain, *functions).on_polar(RHO, THETA)
+    xi, eta = (np.outer(RHO, wave(THETA)).ravel() for wave in (np.sin, np.cos))
+    xi, eta = domain.points(xi, eta)
+    np.testing.assert_allclose(found, [function(xi, eta) for function in functions], atol=3e-14)
+
+
+@pytest.mark.parametrize(("domain", "functions"), CASES)
+def test_and_at_any_point_of_either_side(domain, functions):
+    xi, eta = np.random.default_rng(3).uniform(-0.7, 0.7, (2, 40))
+    xi[:2], eta[:3] = 0.0, 0.0  # the middle and the axes among them
+    found = of(domain, *functions).at(xi, eta)
+    np.testing.assert_allclose(found, [function(xi, eta) for function in functions], atol=3e-14)
+
+
+@pytest.mark.parametrize(("domain", "functions"), CASES)
+def test_its_gradient_is_that_of_the_polynomial(domain, functions):
+    by_xi = {even: lambda x, y: 2 * x * y + 6 * x**5 * y, odd: lambda x, y: 0.5 + y**6 - 3 * x**2 * y**4}
+    by_eta = {
+        even: lambda x, y: x**2 - 21 * y**6 + x**6 - 0.6 * y,
+        odd: lambda x, y: x * (6 * y**5 - 4 * x**2 * y**3),
+    }
+    nodes = domain.nodes(COUNTS)
+    for found, slopes in zip(of(domain, *functions).gradient(), (by_xi, by_eta), strict=True):
+        slopes[neither] = lambda x, y, of_parts=slopes: of_parts[even](x, y) + of_parts[odd](x, y)
+        wanted = [slopes[function](nodes.xi, nodes.eta) for function in functions]
+        np.testing.assert_allclose(found, wanted, atol=2e-12)
+
+
+def test_its_slopes_along_circles_and_rays_are_those_of_the_polynomial():
+    """Of η³ = ρ³cos³θ on the rim too, on either side: 3ρ²cos³θ and −3ρ³cos²θ·sinθ, θ towards that side."""
+    cube = of(WHOLE, lambda xi, eta: eta**3)
+    radius, theta = (part.ravel() for part in np.meshgrid(RHO, THETA, indexing="ij"))
+    by_radius, by_angle = 3 * radius**2 * np.cos(theta) ** 3, -3 * radius**3 * np.cos(theta) ** 2 * np.sin(theta)
+    np.testing.assert_allclose(cube.on_polar(RHO, THETA, BY_RADIUS)[0], np.tile(by_radius, 2), atol=1e-13)
+    np.testing.assert_allclose(cube.on_polar(RHO, THETA, BY_ANGLE)[0], np.tile(by_angle, 2), atol=1e-13)
+
+
+def test_a_stack_is_its_functions_one_by_one_and_sums_are_those_of_the_functions():
+    one, other = of(HALF, even, odd), of(HALF, lambda xi, eta: eta**2 + 0 * xi, odd)
+    stack = DiscFunction(np.stack([one.values, other.values]), COUNTS, one.odd)
+    xi, eta = np.array([0.3, -0.4]), np.array([0.1, 0.5])
+    np.testing.assert_allclose(stack.at(xi, eta)[1], other.at(xi, eta), atol=1e-14)
+    np.testing.assert_array_equal(stack.on((6, 20))[0], one.on((6, 20)))
+    total = DiscFunction(one.values - 2 * other.values, COUNTS, one.odd)
+    np.testing.assert_allclose(total.at(xi, eta), one.at(xi, eta) - 2 * other.at(xi, eta), atol=1e-14)
+
+
+def test_errors_of_a_smooth_function_fall_geometrically():
+    def smooth(xi, eta):
+        return 1 / np.sqrt(1.8 - eta) + np.cos(3 * xi)
+
+    xi, eta = (np.outer(RHO, wave(THETA)).ravel() for wave in (np.sin, np.cos))
+    errors = [
+        np.abs(of(HALF, smooth, counts=counts).at(xi, eta)[0] - smooth(xi, eta)).max()
+        for counts in ((6, 16), (10, 28), (14, 40))
+    ]
+    assert errors[1] < 0.05 * errors[0] and errors[2] < 0.05 * errors[1]

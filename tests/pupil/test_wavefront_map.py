@@ -1,0 +1,37 @@
+"""Maps of the wavefront over pupils with holes, against the rays of a fine grid; more in tests/explorer/compute."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from p2sf.disc.mask import PupilMask
+from p2sf.lens.lens import with_mask
+from p2sf.lens.misalignment import displaced
+from p2sf.lens.placement import Placement
+from p2sf.lens.source import Source
+from p2sf.lensfile.library import find_lens
+from p2sf.pupil.wavefront_map import map_of, samples_of_rays
+from p2sf.raytrace.pencil import displayed_opd, pencil, pupil_grid
+from tests.support.waves import rms_about_plane
+
+POINT = Source(field_deg=10.0)
+
+
+@pytest.mark.parametrize("mask", [PupilMask(), PupilMask(blades=6)], ids=["clear", "iris"])
+@pytest.mark.parametrize("off", [False, True], ids=["aligned", "off"])
+def test_what_a_surface_shadows_counts_nowhere(off, mask):
+    lens = find_lens("tessar")
+    first, *others = lens.surfaces
+    lens = with_mask(replace(lens, surfaces=(replace(first, inner_radius=0.3 * first.semi_diameter), *others)), mask)
+    lens = displaced(lens, 3, 4, Placement(0.02, 0.05, 0.0, 0.05, 0.02)) if off else lens
+    found = map_of(lens, POINT, samples_of_rays(lens, POINT, "settled", clip=True), "settled")
+    xi, eta, inside = pupil_grid(300)
+    inside = inside & mask.opens(xi, eta)
+    xi, eta = xi[inside], eta[inside]
+    passed = pencil(lens, POINT, xi, eta, clip=True).passed
+    assert 0.3 < passed.mean() < 0.9
+    xi, eta = xi[passed], eta[passed]
+    waves = displayed_opd(lens, POINT, xi, eta)
+    assert found.clear == pytest.approx(xi.size * 4 / 300**2 / np.pi, abs=0.01)
+    assert found.rms == pytest.approx(rms_about_plane(waves, xi, eta), rel=0.02)  # cells of 1/96 by a yes or no
