@@ -89,7 +89,9 @@ class DiscFunction:
             of_odd += [channel] * odd
             # Terms first: those of high order, whose powers are large, are small.
             terms = part @ _means(self.counts, self.order, odd)
-            table[..., channel, :, :] = np.tensordot(terms, powers(self.order, odd), 1).swapaxes(-1, -2)
+            forms = powers(self.order, odd)  # (terms, a, b)
+            by_powers = (terms @ forms.reshape(len(forms), -1)).reshape(*terms.shape[:-1], *forms.shape[1:])
+            table[..., channel, :, :] = by_powers.swapaxes(-1, -2)
         return tables
 
     def _parts(self) -> Iterator[tuple[int, bool, np.ndarray]]:

@@ -30,13 +30,21 @@ def strongest(coefficients: Coefficients) -> str:
     return max(parts, key=parts.__getitem__)
 
 
+def depth_of_focus_um(image_index: float, wavelength_um: float, na: float) -> float:
+    """Return n′λ/NA², µm: so far a shift of the sensor makes half a wave of defocus (Born & Wolf 1999, §8.8.2).
+
+    Its sign is that of the index, which is negative behind an odd number of mirrors.
+    """
+    return image_index * wavelength_um / na**2
+
+
 def best_focus_um(c: Coefficients) -> float:
     """Return how far the sensor is from the focus that the six coefficients leave least variance in, µm.
 
     The parts of W40, W20 + Wd and W22 that are alike over the pupil are (W40 + W20 + Wd + W22/2)ρ² (Welford 1986, §7.7,
     for the depth 2n′λW/NA² of a defocus).
     """
-    return abs(2 * float(c.image_index) * float(c.wavelength_um) * _even_focus(c) / float(c.na) ** 2)
+    return abs(2 * depth_of_focus_um(float(c.image_index), float(c.wavelength_um), float(c.na)) * _even_focus(c))
 
 
 def _even_focus(c: Coefficients) -> float:

@@ -6,6 +6,7 @@ from p2sf.disc.domain import ClearNodes
 from p2sf.disc.mask_nodes import mask_nodes
 from p2sf.disc.tilt import without_tilt
 from p2sf.errors import GeometryError
+from p2sf.paraxial.balance import depth_of_focus_um
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.pupil.clear_pieces import CLIPPED, LOST
 from p2sf.pupil.seen_mask import mask_seen
@@ -33,7 +34,8 @@ def best_shift_um(state: State) -> float:
     na = setup.cone.na
     if not na:
         raise GeometryError("the image is at infinity, so no sensor position is in focus; move the source")
-    tried_um = TRIED_WAVES * 2 * float(setup.coefficients.image_index) * setup.source.wavelength_um / na**2
+    depth_um = depth_of_focus_um(float(setup.coefficients.image_index), setup.source.wavelength_um, na)
+    tried_um = 2 * TRIED_WAVES * depth_um
     nodes = open_nodes(setup, not by_coefficients, state.optics.clip)
     shift = state.optics.sensor_shift_um
     for _ in range(STEPS):

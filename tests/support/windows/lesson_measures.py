@@ -9,7 +9,6 @@ from dataclasses import replace
 from functools import lru_cache
 from itertools import pairwise
 from math import isinf
-from threading import Event
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
@@ -410,7 +409,7 @@ def r_squared(state: State) -> float:
     """Return R² of the state's method against the plain sum, in the window in which the Accuracy panel measures it."""
     from p2sf_explorer.compute.reference import measure
 
-    shown = measure(compute.live(state), False, Event(), lambda part: None).picture
+    shown = measure(compute.live(state), False, lambda: False, lambda part: None).picture
     return likeness(shown.values, np.abs(_exact_field(state, shown.x_um, shown.y_um)) ** 2)
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from p2sf.conventions import vergence
 from p2sf.lens.lens import Lens
+from p2sf.paraxial.balance import depth_of_focus_um
 from p2sf.paraxial.pupils import Stop
 from p2sf.paraxial.seidel import coefficients
 from p2sf_explorer.compute.live import Live
@@ -162,7 +163,7 @@ def one_wave(live: Live) -> float:
 def shifts_around(live: Live, count: int) -> tuple[float, ...]:
     """Return sensor shifts on both sides of the present one, a depth of focus n′λ/NA² or a little more apart, µm."""
     index, na = float(live.setup.own.image_index), live.setup.cone.na
-    depth = abs(index) * live.setup.source.wavelength_um / na**2 if na else 100.0
+    depth = abs(depth_of_focus_um(index, live.setup.source.wavelength_um, na)) if na else 100.0
     steps = nice(depth) * (np.arange(count) - (count - 1) / 2)
     return tuple(float(live.state.optics.sensor_shift_um + step) for step in steps)
 

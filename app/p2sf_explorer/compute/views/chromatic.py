@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM
+from p2sf.paraxial.balance import depth_of_focus_um
 from p2sf.raytrace.field_curves import colour_shift
 from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.ranges import wavelength_range
@@ -32,5 +33,5 @@ def chromatic(live: Live) -> View[Chromatic]:
     nm = np.linspace(*wavelength_range(prescription(live.state)), WAVELENGTHS[live.quality])
     shift = 1e3 * colour_shift(setup.lens, setup.source.depth_mm, nm / NM_PER_UM, ZONES, setup.stop)
     index, na = float(setup.own.image_index), setup.cone.na
-    half = abs(index) * setup.source.wavelength_um / (2 * na**2) if na else np.inf
+    half = abs(depth_of_focus_um(index, setup.source.wavelength_um, na)) / 2 if na else np.inf
     return View(Chromatic(nm, shift, half))

@@ -7,6 +7,7 @@ import numpy as np
 
 from p2sf.errors import P2SFError
 from p2sf.metrics.perfect import airy_radius_um
+from p2sf.paraxial.balance import depth_of_focus_um
 from p2sf.psf.geometric import over_unaberrated
 from p2sf.pupil.seen_mask import mask_seen
 from p2sf.raytrace.field_curves import real_foci, seidel_foci
@@ -71,7 +72,7 @@ def shift_range(setup: ParaxialSetup) -> tuple[float, float, float]:
     """Return the shifts to show, µm, around sensor and foci, and half the width of a window that holds the blur, µm."""
     c, na = setup.coefficients, setup.cone.na
     index = float(c.image_index)  # negative behind an odd number of mirrors
-    unit = 1e3 * index * setup.source.wavelength_um / 1e3 / na**2  # n′λ/NA², the depth of focus, µm
+    unit = depth_of_focus_um(index, setup.source.wavelength_um, na)
     six = not setup.lens.tilted
     foci = seidel_foci(c) if six else real_foci(setup.lens, setup.source, setup.source.field_slope, setup.stop)
     sagittal, tangential = (1e3 * float(place) for place in foci)
