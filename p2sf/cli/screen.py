@@ -8,7 +8,6 @@ from contextlib import contextmanager
 from itertools import zip_longest
 from math import inf, isinf
 from shutil import get_terminal_size
-from textwrap import wrap
 from time import perf_counter
 from typing import Any
 from unicodedata import combining, east_asian_width
@@ -35,7 +34,7 @@ def print_json(value: Mapping[str, Any]) -> None:
 def print_table(title: str, columns: tuple[str, ...], rows: Sequence[Row]) -> None:
     """Print a table, with a rule and bold type only on a terminal; numbers to six digits, columns of them to the right.
 
-    Where a terminal is too narrow for it, heads of numbers and the widest column go on in further lines.
+    Where a terminal is too narrow for it, heads and columns of text go on in further lines.
     """
     terminal = sys.stdout.isatty()
     gap = "   " if terminal else "  "
@@ -51,22 +50,43 @@ def print_table(title: str, columns: tuple[str, ...], rows: Sequence[Row]) -> No
 
 
 def _widths(table: Sequence[tuple[str, ...]], numeric: Sequence[bool], room: float) -> list[int]:
-    """Return the widths of the columns of a table, its head the first row, as far as they can within some room."""
+    """Return the widths of the columns of a table, its head the first row, shrunk to fit where that is possible.
+
+    Heads break at their words first, then columns of text, the widest first, but none below NARROWEST.
+    """
     widths = [max(map(text_width, column)) for column in zip(*table, strict=True)]
     if sum(widths) <= room:
         return widths
-    for number, (head, *cells) in enumerate(zip(*table, strict=True)):
-        if numeric[number]:
-            widths[number] = max(map(text_width, (*head.split(), *cells)))
-    widest = widths.index(max(widths))
-    widths[widest] = max(NARROWEST, widths[widest] + int(min(0, room - sum(widths))))
+    widths = [max(map(text_width, (*head.split(), *cells))) for head, *cells in zip(*table, strict=True)]
+    while sum(widths) > room:
+        wide = [number for number, width in enumerate(widths) if width > NARROWEST and not numeric[number]]
+        if not wide:
+            break
+        widths[max(wide, key=widths.__getitem__)] -= 1
     return widths
+
+
+def _wrapped(cell: str, width: int) -> list[str]:
+    """Return a cell in lines of at most so many columns, broken at spaces, or within a word that is longer."""
+    lines = [""]
+    for word in cell.split():
+        longer = f"{lines[-1]} {word}".lstrip()
+        if text_width(longer) <= width:
+            lines[-1] = longer
+            continue
+        if lines[-1]:
+            lines.append("")
+        for letter in word:
+            if text_width(lines[-1] + letter) > width:
+                lines.append("")
+            lines[-1] += letter
+    return lines
 
 
 def _row_lines(cells: Sequence[str], widths: Sequence[int], numeric: Sequence[bool], gap: str) -> list[str]:
     """Return the lines of a row of a table, numbers to the right: several where a cell is wider than its column."""
     wrapped = [
-        wrap(cell, width) if text_width(cell) > width else [cell] for cell, width in zip(cells, widths, strict=True)
+        _wrapped(cell, width) if text_width(cell) > width else [cell] for cell, width in zip(cells, widths, strict=True)
     ]
     lines = []
     for parts in zip_longest(*wrapped, fillvalue=""):

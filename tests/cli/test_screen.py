@@ -1,5 +1,6 @@
 """Tables of the command line: what a terminal and a pipe show of the same rows."""
 
+from collections import Counter
 from unicodedata import east_asian_width
 
 import pytest
@@ -41,6 +42,25 @@ def test_a_table_keeps_within_a_terminal_and_loses_no_word(capsys, monkeypatch, 
     page = capsys.readouterr().out
     assert max(map(columns_of, page.splitlines())) <= room and "\033" not in page
     assert sorted(page.replace("─", "").split()) == sorted(" ".join(["Lenses", *HEADS, *map(words, ROWS)]).split())
+
+
+@pytest.mark.parametrize(
+    ("heads", "rows"),
+    [
+        (("name", "remark"), [("alpha " * 10, "beta " * 12)]),
+        (("name", "n"), [("日本語レンズ名前が長い場合はどうなるでしょうか" * 2, 1.5), ("x", 2.5)]),
+        (("S", "W040, waves", "W131, waves", "W222, waves"), [("1", "-0.12345", "0.2", "12.5")] * 2),
+    ],
+)
+def test_columns_of_text_share_what_room_there_is(capsys, monkeypatch, heads, rows):
+    """Two long ones, letters that are two columns wide, and numbers that are given as text, under long heads."""
+    monkeypatch.setattr("sys.stdout.isatty", lambda: True)
+    monkeypatch.setenv("TERM", "dumb")
+    monkeypatch.setenv("COLUMNS", "40")
+    print_table("T", heads, rows)
+    page = capsys.readouterr().out
+    assert max(map(columns_of, page.splitlines())) <= 40
+    assert not Counter("".join("".join(map(str, row)) for row in rows).replace(" ", "")) - Counter(page)
 
 
 def words(row: tuple[str, float, str]) -> str:

@@ -6,6 +6,7 @@ from scipy.integrate import quad
 from scipy.special import j1
 
 from p2sf.conventions import centred_axis
+from p2sf.figures import pixel_light
 from p2sf.figures.pixel_light import LARGEST, fine_grid
 
 FINEST_UM = 1.0  # λ/(4 NA): frequencies up to 1/2 cycle per µm, the highest of an incoherent image
@@ -16,6 +17,12 @@ def samples(grid, intensity) -> np.ndarray:
     """Return an intensity at the samples of a grid, rows along y."""
     axis = centred_axis(grid.side, grid.pitch_um)
     return intensity(axis, axis[:, None])
+
+
+def airy(x, y):
+    """Return the Airy pattern whose λ/(4 NA) is FINEST_UM (Born & Wolf 1999, 8.5.2)."""
+    v = 2 * np.pi / (4 * FINEST_UM) * np.hypot(x, y) + 1e-12
+    return (2 * j1(v) / v) ** 2
 
 
 @pytest.mark.parametrize(("pixels", "pixel_um"), PIXELS)
@@ -45,12 +52,8 @@ def test_a_wave_is_integrated_in_closed_form(pixels, pixel_um, cycles_per_um):
 
 def test_an_airy_pattern_on_pixels_is_what_quadrature_finds():
     """In the middle pixel, one beside it, and one off both axes (Born & Wolf 1999, 8.5.2)."""
-    pixel_um, na_over_wavelength = 3.7, 1 / (4 * FINEST_UM)
+    pixel_um = 3.7
     grid = fine_grid(41, pixel_um, FINEST_UM)
-
-    def airy(x, y):
-        v = 2 * np.pi * na_over_wavelength * np.hypot(x, y) + 1e-12
-        return (2 * j1(v) / v) ** 2
 
     light = grid.light(samples(grid, airy)) * grid.pitch_um**2
     for row, column in ((20, 20), (20, 21), (22, 21)):
@@ -76,4 +79,15 @@ def test_samples_are_closer_than_the_band_asks_and_points_stay_points():
     assert fine_grid(9, 1.0, FINEST_UM) is None and fine_grid(9, 0.5, FINEST_UM) is None
     assert fine_grid(9, 0.5, FINEST_UM, narrow_too=True).side < 41
     assert fine_grid(256, 6.0, FINEST_UM).per_pixel >= 1.2 * 6.0 and fine_grid(256, 6.0, FINEST_UM).side <= LARGEST
-    assert fine_grid(64, 30.0, FINEST_UM).per_pixel == 30.0 and fine_grid(256, 9.0, FINEST_UM) is None
+    widest = fine_grid(64, 30.0, FINEST_UM)
+    assert 30.0 <= widest.per_pixel < 36.0 and widest.side <= LARGEST and fine_grid(256, 9.0, FINEST_UM) is None
+
+
+def test_the_widest_windows_are_as_exact_as_is_said(monkeypatch):
+    """Samples hardly closer than λ/(4 NA): up to 4e-3 for an Airy pattern, where there are enough of them 4e-5."""
+    enough = fine_grid(40, 1.5, FINEST_UM)
+    monkeypatch.setattr(pixel_light, "LARGEST", 84)
+    widest = fine_grid(40, 1.5, FINEST_UM)
+    assert 1.5 <= widest.per_pixel < 1.1 * 1.5
+    one, other = (grid.light(samples(grid, airy)) * grid.pitch_um**2 for grid in (enough, widest))
+    assert 1e-4 < np.linalg.norm(one - other) / np.linalg.norm(one) < 4e-3

@@ -85,7 +85,7 @@ EQUIVALENT: dict[tuple[str, str], str] = {
         "found = Region(top, source.top + int(rows[-1]) + 1, left, source.left + int(columns[-1]) + 2)",
     ): "one column more, in which the layer has the light of the picture",
     (
-        "p2sf/metrics/window.py",
+        "p2sf/figures/window.py",
         "fine, coarse = _split(values.astype(float), psf.x_um - x, psf.y_um - y, psf.pixel_um)",
     ): "both parts are joined, in either order",
     (

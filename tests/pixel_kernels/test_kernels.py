@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from p2sf.disc.binning import bin_samples
 from p2sf.disc.mask import PupilMask
 from p2sf.disc.zernike import basis, basis_by_powers
 from p2sf.errors import GeometryError
@@ -35,6 +34,7 @@ from p2sf.raytrace.pencil import pencil, to_the_rim
 from p2sf.scene.planning.reference import exact_pixels
 from p2sf.scene.scene import Channel
 from p2sf.scene.spectrum import reduce_spectrum
+from tests.support.binning import bin_samples
 
 WAVE, PIXEL = 0.5876, 6.0
 FINE = Recipe("fitted", levels(find_lens("double_gauss_28").aim)[1].numbers, 4.0, 1.0)

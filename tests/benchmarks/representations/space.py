@@ -9,7 +9,6 @@ import numpy as np
 
 from p2sf.conventions import NM_PER_UM, slope_from_degrees, vergence
 from p2sf.database.space import Space
-from p2sf.disc.binning import bin_samples
 from p2sf.errors import GeometryError
 from p2sf.figures.pixel_light import ROUNDING
 from p2sf.lens.lens import Lens, check_aligned, with_f_number
@@ -21,6 +20,7 @@ from p2sf.paraxial.seidel import coefficients
 from p2sf.pupil.fit import fit
 from p2sf.raytrace.ray_field import AIRY_RADIUS
 from p2sf.spans import depth_nodes
+from tests.support.binning import bin_samples
 
 PIXELS = 64
 DEFOCUS_WAVES = 4.0  # from one end of the depths to the other, at the reference wavelength
