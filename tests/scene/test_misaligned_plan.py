@@ -110,7 +110,10 @@ def test_a_mirrored_lens_forms_the_mirrored_picture(planned, straight, values):
 
 @pytest.mark.parametrize(
     "shape",
-    [XYPolynomial((0.0, 1e-4, 0.0, 2e-3, 0.0, 1e-3), normalisation_mm=10.0), RadialPolynomial((0.0, 0.0, 1e-5))],
+    [
+        XYPolynomial((0.0, 1e-4, 0.0, 2e-3, 0.0, 1e-3), normalisation_mm=10.0),
+        pytest.param(RadialPolynomial((0.0, 0.0, 1e-5)), marks=pytest.mark.slow),  # 45 fits of high order
+    ],
     ids=repr,
 )
 def test_surfaces_without_six_coefficients_are_planned_by_fits(straight, shape):
