@@ -12,13 +12,14 @@ from functools import lru_cache
 import numpy as np
 
 from p2sf.conventions import write_protect
+from p2sf.disc.basis import Terms
 from p2sf.disc.domain import HALF, WHOLE, ClearNodes, PupilDomain
 from p2sf.disc.mask import PupilMask
 from p2sf.disc.mask_cells import inside_share, open_share
 from p2sf.disc.mask_nodes import mask_nodes
 from p2sf.disc.mask_outline import obstructions, opening
 from p2sf.disc.tilt import rms
-from p2sf.disc.zernike import basis, powers, terms
+from p2sf.disc.zernike import powers
 from p2sf.disc.zernike_terms import family, zernike_terms, zernike_values
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
@@ -140,27 +141,26 @@ class MapTerms:
     domain: PupilDomain
 
     @property
-    def parities(self) -> tuple[bool, ...]:
-        """Return whether the terms of each group are odd."""
-        return self.domain.parities(False)
+    def terms(self) -> Terms:
+        """Return the terms."""
+        return Terms(ORDERS[self.quality], self.domain.parities(False))
 
     @property
     def degrees(self) -> list[tuple[int, int]]:
         """Return (n, m) of each term."""
-        return [pair for odd in self.parities for pair in terms(ORDERS[self.quality], odd)]
+        return [(n, m) for n, m in self.terms.indices.T.tolist()]
 
     def at(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
         """Return the terms at pupil points, (terms, points)."""
-        values: np.ndarray = np.concatenate([basis(ORDERS[self.quality], xi, eta, odd=odd) for odd in self.parities])
-        return values
+        return self.terms.values(xi, eta)
 
     def sampled(self, amounts: np.ndarray) -> np.ndarray:
         """Return their sum on the square: powers of η times powers of ξ², of odd ones times ξ, mirrored at ξ = 0."""
-        left, right, first = 0.0, 0.0, 0
-        for odd in self.parities:
+        left, right = 0.0, 0.0
+        for odd, own in self.terms.kinds(amounts):
             along, across, table = _power_tables(self.quality, odd)
-            half = along @ np.tensordot(amounts[first : first + len(table)], table, 1).T @ across
-            left, right, first = left + (-half if odd else half), right + half, first + len(table)
+            half = along @ np.tensordot(own, table, 1).T @ across
+            left, right = left + (-half if odd else half), right + half
         waves: np.ndarray = np.concatenate([np.asarray(left)[:, ::-1], np.asarray(right)], axis=1)
         return waves
 
