@@ -56,7 +56,7 @@ class LateAnswers(QObject):
 
     ``finished(question, answer)`` is emitted for every answer, of an earlier question too, ``failed(question,
     message)`` for the question ``asked`` last. A job that ends with `Cancelled` is no failure and emits nothing: its
-    question may have been asked again.
+    question may have been asked again. After `stop` nothing is emitted.
 
     ``answer(question, stopped, tell)`` is what `ask` runs. ``paint(question, answer)`` shows an answer, whole or what
     ``tell(share, so far)`` has of it, as long as one is wanted. ``say`` is called with the text that ``paint``
@@ -103,18 +103,25 @@ class LateAnswers(QObject):
         return self._cancelled is not None or self._held.isActive()
 
     def ask(self, question: object) -> None:
-        """Ask, unless this is what was asked last."""
-        self._held.stop()
-        if question != self.asked and (answer := self._answer):
+        """Ask, unless this is what was asked last and has not been cancelled."""
+        if (question != self.asked or self._is_cancelled()) and (answer := self._answer):
             self.submit(question, lambda cancelled, tell: answer(question, cancelled.is_set, tell))
 
     def ask_when_held(self, question: object) -> None:
-        """Ask once no other question has come for ``held_ms``, since the frames of a slider that moves go first."""
-        if question == self.asked:
+        """Ask once no other question has come for ``held_ms``, since the frames of a slider that moves go first.
+
+        What is on its way is no longer wanted; the picture on screen stays, marked as an earlier one.
+        """
+        if question == (self._later if self._held.isActive() else self.asked):
             return
-        self.forget()
-        self._later = question
+        self.cancel()
+        self.asked, self._refusal, self._later = None, None, question
         self._held.start()
+        self._tell()
+
+    def let_go(self) -> None:
+        """Do not ask what is held; what runs goes on."""
+        self._held.stop()
 
     def follow(self, view: View[Any]) -> None:
         """Ask what a view leaves to be asked, at once or once it is held; where nothing is left, want nothing more."""
@@ -127,11 +134,12 @@ class LateAnswers(QObject):
         """Run a job for a question now if nothing runs, else next, whatever was asked last; after the end drop it."""
         if self._stopped:
             return
+        self.let_go()
         self.asked, self._refusal = question, None
-        self._tell()
         self._waiting = (question, job)
         if self._cancelled is None:
             self._next()
+        self._tell()
 
     def refuse(self, reason: Message | P2SFError) -> None:
         """Say why there is nothing to ask; what is on its way is no longer wanted."""
@@ -141,8 +149,8 @@ class LateAnswers(QObject):
 
     def forget(self) -> None:
         """Want nothing that is on its way, since something else is shown; say nothing."""
-        self._held.stop()
-        self.asked, self._refusal, self._shown = None, None, None
+        self.let_go()
+        self.asked, self._refusal, self._shown, self._text = None, None, None, ""
         self.cancel()
 
     def again(self) -> None:
@@ -151,7 +159,7 @@ class LateAnswers(QObject):
             self._show(*self._shown)
 
     def cancel(self) -> None:
-        """Ask the running job to stop and drop the waiting one."""
+        """Ask the running job to stop and drop the waiting one; what comes of it all the same is not painted."""
         self._waiting = None
         if self._cancelled:
             self._cancelled.set()
@@ -159,10 +167,11 @@ class LateAnswers(QObject):
     def stop(self) -> None:
         """End the thread for good; call before the application ends."""
         self._stopped = True
-        self._held.stop()
-        self.cancel()
+        self.blockSignals(True)
+        self.forget()
         self._thread.quit()
         self._thread.wait()
+        self._cancelled = None  # nothing more is heard of a job that had not begun
 
     def _show(self, question: object, answer: object) -> None:
         if self._paint:
@@ -176,7 +185,7 @@ class LateAnswers(QObject):
             return
         text = self._text.text(WINDOW) if isinstance(self._text, Message) else self._text
         earlier = self._shown is not None and self._shown[0] != self.asked
-        self._say((text or tr("working")) + (f" · {tr('earlier picture')}" if earlier else ""))
+        self._say((text or (tr("working") if self.busy else "")) + (f" · {tr('earlier picture')}" if earlier else ""))
 
     def _next(self) -> None:
         if self._waiting is None:
@@ -187,24 +196,36 @@ class LateAnswers(QObject):
         self._cancelled = Event()
         self._start.emit(question, job, self._cancelled)
 
+    def _is_cancelled(self) -> bool:
+        """Return whether a job runs that was asked to stop."""
+        return self._cancelled is not None and self._cancelled.is_set()
+
+    def _end(self) -> None:
+        """Note that the running job has ended; the question of one that was cancelled may be asked again."""
+        if self._is_cancelled() and self._waiting is None:
+            self.asked = None
+        self._cancelled = None
+
     @Slot(object, float, object)
     def _on_progress(self, question: object, share: float, so_far: object) -> None:
-        if so_far is not None and question == self.asked:  # of an earlier one only what is whole
+        if so_far is not None and question == self.asked and not self._is_cancelled():  # of an earlier one the whole
             self._show(question, so_far)
         self.progressed.emit(question, share)
 
     @Slot(object, object)
     def _on_finished(self, question: object, answer: object) -> None:
-        self._cancelled = None
-        if self.asked is not None:
+        wanted = self.asked is not None and not self._is_cancelled()
+        self._end()
+        if wanted:
             self._show(question, answer)
         self.finished.emit(question, answer)
         self._next()
 
     @Slot(object, Message)
     def _on_failed(self, question: object, message: Message) -> None:
-        self._cancelled = None
-        if question == self.asked:
+        wanted = question == self.asked
+        self._end()
+        if wanted:
             self._refusal = message
             self._tell()
             self.failed.emit(question, message)
@@ -212,5 +233,8 @@ class LateAnswers(QObject):
 
     @Slot()
     def _on_gave_up(self) -> None:
-        self._cancelled = None
+        self._end()
+        if self.asked is not None and self._waiting is None:  # after an unexpected error
+            self.asked = None
+            self._tell()
         self._next()

@@ -1,12 +1,13 @@
 """The Tolerances panel: what hurts, the yield, own values, and builds beside the lens as designed."""
 
 from dataclasses import replace
+from threading import Event
 
 import numpy as np
 import pytest
 from PySide6.QtWidgets import QApplication, QWidget
 
-from p2sf.errors import P2SFError
+from p2sf.errors import Cancelled, P2SFError
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.pupil.zernike_fit import zernike_fit
@@ -239,3 +240,26 @@ def test_a_harm_is_written_where_it_is_a_thousandth_of_the_largest(panel, window
     table = ErrorTable()
     table.show_errors(replace(view, errors=rows, form_errors=(0.0,) * 5), window.store.state.tolerances)
     assert [table.item(row, 2).text() for row in range(5)] == ["0.20", "0.020", "0.00030", "0", "−0.0030"]
+
+
+def test_cancel_offers_to_draw_again_at_once_and_the_same_is_not_begun_by_itself(window, monkeypatch, qtbot):
+    begun, ends = [], Event()
+
+    def answer(_, asked, stopped, tell):
+        begun.append(asked)
+        ends.wait(5)
+        raise Cancelled("stopped")
+
+    monkeypatch.setattr(analysis.Analyst, "answer", answer)
+    made = TolerancesPanel(window.store)
+    shown = live(new_state(lens=LENS), "settled", {"tolerances": analysis.question})
+    made.show(shown)
+    assert made.again.isHidden() and not made.stop_button.isHidden()
+    qtbot.waitUntil(lambda: len(begun) == 1)
+    made.stop_button.click()
+    assert not made.again.isHidden() and made.stop_button.isHidden()
+    ends.set()
+    qtbot.waitUntil(lambda: not made.late.busy)
+    made.show(shown)
+    assert not made.late.busy and not made.again.isHidden() and made.stop_button.isHidden()
+    end_work(made)

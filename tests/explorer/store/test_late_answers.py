@@ -1,6 +1,7 @@
 """LateAnswers: one runs, one waits, what finishes is shown."""
 
 from threading import Event
+from time import sleep
 
 import pytest
 
@@ -174,3 +175,136 @@ def test_a_question_of_a_slider_that_moves_waits_until_it_is_held(qtbot, asked):
     late.stop()
     qtbot.wait(2 * HELD_MS)
     assert runs == [5], "nothing begins after the end"
+
+
+def test_the_picture_on_screen_is_marked_while_the_next_question_is_held(qtbot, asked):
+    late, gate, _, painted, said = asked
+    gate.set()
+    late.ask_when_held("one")
+    assert said == ["working"]
+    qtbot.waitUntil(lambda: not late.busy)
+    late.ask_when_held("two")
+    assert said[-1] == "painted all of one · earlier picture"
+    qtbot.waitUntil(lambda: not late.busy)
+    assert said[-1] == "painted all of two" and painted[-1] == ("two", "all of two")
+
+
+def test_nothing_is_said_of_what_was_forgotten(qtbot, asked):
+    """Something else has been on screen since: the figures of the last answer would be those of neither."""
+    late, gate, _, _, said = asked
+    gate.set()
+    late.ask("one")
+    qtbot.waitUntil(lambda: not late.busy)
+    late.forget()
+    gate.clear()
+    said.clear()
+    late.ask("two")
+    assert said == ["working"]
+
+
+def test_a_question_that_is_held_is_not_held_anew(qtbot, asked):
+    """A preview asks the same with every frame; begun anew by each it would never be asked."""
+    late, gate, runs, _, _ = asked
+    gate.set()
+    held_since = 0
+    late.ask_when_held("same")
+    while not runs and held_since < 20 * HELD_MS:
+        late.ask_when_held("same")
+        qtbot.wait(HELD_MS // 4)
+        held_since += HELD_MS // 4
+    assert runs == ["same"]
+
+
+def test_what_is_held_gives_way_to_what_is_submitted(qtbot, asked):
+    late, gate, runs, _, _ = asked
+    gate.set()
+    late.ask_when_held("held")
+    late.submit("at once", lambda cancelled, tell: "done")
+    qtbot.wait(2 * HELD_MS)
+    qtbot.waitUntil(lambda: not late.busy)
+    assert runs == [] and late.asked == "at once"
+
+
+def test_what_is_held_can_be_let_go_while_what_runs_goes_on(qtbot, asked):
+    late, gate, runs, painted, _ = asked
+    late.ask("one")
+    qtbot.waitUntil(lambda: runs == ["one"])
+    late.let_go()
+    gate.set()
+    qtbot.waitUntil(lambda: not late.busy)
+    assert painted[-1] == ("one", "all of one")
+    late.ask_when_held("two")
+    late.let_go()
+    qtbot.wait(2 * HELD_MS)
+    assert runs == ["one"] and not late.busy
+
+
+def test_what_is_forgotten_is_not_painted_when_something_else_is_asked(qtbot, asked):
+    late, gate, runs, painted, _ = asked
+    late.ask("one")
+    qtbot.waitUntil(lambda: len(painted) == 1)
+    late.forget()
+    late.ask("two")
+    gate.set()
+    qtbot.waitUntil(lambda: not late.busy)
+    assert runs == ["one", "two"] and [question for question, _ in painted] == ["one", "two", "two"]
+
+
+@pytest.mark.parametrize("at_once", [True, False], ids=["while the job still runs", "after its end"])
+def test_what_was_cancelled_may_be_asked_again(qtbot, asked, at_once):
+    late, gate, runs, painted, said = asked
+    late.ask("one")
+    qtbot.waitUntil(lambda: len(painted) == 1)
+    late.cancel()
+    if at_once:
+        late.ask("one")
+    gate.set()
+    qtbot.waitUntil(lambda: not late.busy)
+    late.ask("one")
+    qtbot.waitUntil(lambda: not late.busy)
+    assert runs == ["one", "one"] and painted[-1] == ("one", "all of one") and said[-1] == "painted all of one"
+
+
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnhandledThreadExceptionWarning")
+def test_after_an_unexpected_error_the_same_may_be_asked_again(qtbot):
+    said, runs = [], []
+
+    def answer(question, stopped, tell):
+        runs.append(question)
+        if len(runs) == 1:
+            raise KeyError("unexpected")
+        return "done"
+
+    late = LateAnswers(answer=answer, paint=lambda question, found: found, say=said.append)
+    with qtbot.capture_exceptions() as errors:
+        late.ask("one")
+        qtbot.waitUntil(lambda: not late.busy)
+    assert len(errors) == 1 and said == ["working", ""]
+    late.ask("one")
+    qtbot.waitUntil(lambda: not late.busy)
+    assert runs == ["one", "one"] and said[-1] == "done"
+    late.stop()
+
+
+def test_nothing_is_painted_or_told_after_the_end(qtbot, asked):
+    """What has ended stands in the queue while the window closes."""
+    late, gate, runs, painted, said = asked
+    told = []
+    for signal in (late.finished, late.progressed):
+        signal.connect(lambda *words: told.append(words))
+    late.ask("one")
+    while not runs:
+        sleep(0.001)  # in which no event is handled
+    gate.set()
+    late._thread.quit()
+    late._thread.wait()
+    late.stop()
+    qtbot.wait(20)
+    assert painted == [] and told == [] and said == ["working"] and not late.busy
+
+
+def test_a_job_that_never_began_leaves_nothing_busy(qtbot, asked):
+    late = asked[0]
+    late.ask("one")
+    late.stop()
+    assert not late.busy

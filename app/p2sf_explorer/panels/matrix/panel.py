@@ -103,7 +103,7 @@ class MatrixPanel:
         for group in (*pairs, (self.badge,)):
             self.widget.add_group(*group)
         self.widget.set_body(self.grid)
-        self.late = LateAnswers(self.widget, settle, self._take, self._say)
+        self.late = LateAnswers(self.widget, settle, self._take)
         self.shown: tuple[MatrixRequest, Tiles] | None = None
         self.settled: tuple[MatrixRequest, Tiles] | None = None
         self._live: Live | None = None
@@ -113,6 +113,7 @@ class MatrixPanel:
 
     def _connect(self) -> None:
         store = self._store
+        self.late.failed.connect(lambda _, why: self.badge.set_text(said(why), "warning"))
         choosers = {"matrix_what": self.what, "matrix_across": self.across}
         self.widget.bind(store, psf_scale=self.scale, psf_units=self.units, **choosers)
         self.shared.clicked.connect(lambda on: store.update(matrix_shared=on))
@@ -163,11 +164,6 @@ class MatrixPanel:
                 self.settled = request, tiles
             self._paint(request, tiles)
         return ""
-
-    def _say(self, text: str) -> None:
-        """Say why nothing was made; progress stands on the badge."""
-        if self.late.asked is None and text:
-            self.badge.set_text(text, "warning")
 
     def _paint(self, request: MatrixRequest, tiles: Tiles) -> None:
         if self._live is None or (len(tiles), len(tiles[0])) != self.grid.shape:

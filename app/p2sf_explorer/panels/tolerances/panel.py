@@ -121,6 +121,7 @@ class TolerancesPanel:
         self.overlay = Overlay(self.body)
         self._asked: ToleranceQuestion | None = None
         self._found: ToleranceResult | None = None
+        self._stopped: object = None  # the request that is not asked again by itself
         self._refusal, self._state = "", store.state
         self.late = LateAnswers(self.widget, Analyst().answer)
         self._connect()
@@ -170,8 +171,8 @@ class TolerancesPanel:
         asked: ToleranceQuestion = live.views["tolerances"].question
         self._asked, self._state = asked, live.sides[0] if live.sides else live.state
         self._show_settings(asked.view, asked.request.lens)
-        if asked.request != self.late.asked and live.quality == "settled":
-            self._refusal = ""
+        if asked.request not in (self.late.asked, self._stopped) and live.quality == "settled":
+            self._refusal, self._stopped = "", None
             self.late.ask(asked.request)
         self._paint()
 
@@ -232,7 +233,8 @@ class TolerancesPanel:
         return self._asked, self._found
 
     def _stop(self) -> None:
-        self.late.cancel()
+        self._stopped = self.late.asked
+        self.late.forget()
         self._refusal = tr("Stopped. Draw again to start over.")
         self._paint()
 
@@ -255,8 +257,9 @@ class TolerancesPanel:
     def _paint(self) -> None:
         """Paint the figures of the last result, if it is of these settings."""
         stale = self._stale()
-        self.stop_button.setVisible(self.late.busy)
-        self.again.setVisible(not self.late.busy)
+        working = self.late.busy and self._stopped is None
+        self.stop_button.setVisible(working)
+        self.again.setVisible(not working)
         waiting = tr("The sensitivities are computed from exact rays.")
         self.film.setEnabled(not stale)
         self.overlay.say(self._refusal or (waiting if self._found is None else ""), 0)
