@@ -70,7 +70,7 @@ def peak_of(
     if not waves.spread:  # a single wave has uniform intensity
         return brightest
     if quality == "preview":
-        top = _tops(intensity, axis, waves.spread)[0] if _determined(pixel_um, waves.spread) else brightest
+        top = top_in_window(intensity, pixel_um, waves.spread)
         return climb(waves, top.x_um, top.y_um, quality) if waves.fx.size <= MOST_IN_PREVIEW else top
     half = waves.blur_um + BORDER / waves.spread
     held = half <= -axis[0] or _border(intensity) < DARK * intensity.max()
@@ -94,6 +94,16 @@ def peak_of(
 def _determined(pitch_um: float, spread: float) -> bool:
     """Return whether samples so far apart determine the picture."""
     return pitch_um * spread * ENOUGH_SAMPLES <= 1 + ROUNDING
+
+
+def top_in_window(intensity: np.ndarray, pixel_um: float, spread: float) -> Peak:
+    """Return the highest place of a window, (y, x), to some 5e-4, where samples determine it; else the brightest one.
+
+    ``spread``: the highest frequency of the pupil, cycles per µm.
+    """
+    if not _determined(pixel_um, spread):
+        return sampled_peak(intensity, pixel_um)
+    return _tops(intensity, centred_axis(intensity.shape[-1], pixel_um), spread)[0]
 
 
 def sampled_peak(intensity: np.ndarray, pixel_um: float) -> Peak:

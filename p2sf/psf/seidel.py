@@ -19,7 +19,7 @@ from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import steepest_polar, steepest_slope, wavefront
 from p2sf.psf.fitted import MOST_FOR_PEAK, waves_reaching
-from p2sf.psf.peak import peak_of, sampled_peak
+from p2sf.psf.peak import peak_of, top_in_window
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel_stack import SummedStack, as_fit, corner_reach, each_of, stack_of
 from p2sf.psf.seidel_sum import wave_number
@@ -178,8 +178,8 @@ def _peaks(
     for one, plane, total in zip(each_of(coefficients), planes, totals, strict=True):
         reaching = partial(_waves_reaching, one, as_fit(one, mask))
         waves = reaching(reach_um)
-        if waves is None:  # with so many waves, the brightest sample
-            peak = sampled_peak(plane * total, pixel_um)
+        if waves is None:  # with so many, what the window shows
+            peak = top_in_window(plane * total, pixel_um, abs(float(wave_number(one))))
         else:
             peak = peak_of(plane * total, pixel_um, waves, reaching, quality)
         found.append((peak.value, peak.x_um, peak.y_um, peak.other_peaks))
