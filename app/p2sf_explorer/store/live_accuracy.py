@@ -63,37 +63,48 @@ class LiveAccuracy(QObject):
         enabled: bool = True,
     ) -> None:
         super().__init__(parent)
-        self._enabled, self._resting = enabled, False
+        self._enabled, self._filming = enabled, False
         self._show_badge, self._display = show_badge, display
         self._live: Live | None = None
         self._last: Accuracy | None = None
         self.late = LateAnswers(self, _measured, held_ms=REST_MS)
         self.late.finished.connect(self._on_finished)
         self.late.failed.connect(self._on_failed)
-        self.late.progressed.connect(lambda _, part: self._show(lambda panel: panel.show_progress(part)))
+        self.late.progressed.connect(self._on_progress)
 
-    def rest(self, resting: bool) -> None:
-        """Measure nothing while ``resting``: the pictures are for a film."""
-        self._resting = resting
+    def film(self, on: bool) -> None:
+        """While the pictures are for a film, measure only for a panel on show, and at once: frames wait for it."""
+        self._filming = on
+        self.late.let_go()
 
     def watch(self, live: Live | None) -> None:
         """Measure a settled answer that stands in for no other; none of an altered lens, which has no reference."""
         self._live = live
-        if live is None or not self._enabled or self._resting or live.quality != "settled" or live.pending:
+        if live is None or not self._enabled or live.quality != "settled" or live.pending:
+            self.late.let_go()
             return
         every_method = asked_for(live.state)
+        if self._filming and not every_method:
+            return
         if live.setup.altered:
             self.late.forget()
             self._show_badge(live, None)
             self._show(lambda panel: panel.show_failure(Message(NO_REFERENCE)))
         elif self._last and fits(self._last, live, every_method):
+            self.late.forget()
             self._tell(self._last)
         else:
-            self.late.ask_when_held(AccuracyQuestion(picture(live), every_method, live))
+            ask = self.late.ask if self._filming else self.late.ask_when_held
+            ask(AccuracyQuestion(picture(live), every_method, live))
 
-    def _on_finished(self, _: AccuracyQuestion, accuracy: "Accuracy") -> None:
-        self._last = accuracy
-        self._tell(accuracy)
+    def _on_progress(self, question: AccuracyQuestion, part: float) -> None:
+        if question == self.late.asked:
+            self._show(lambda panel: panel.show_progress(part))
+
+    def _on_finished(self, question: AccuracyQuestion | None, accuracy: "Accuracy") -> None:
+        if question == self.late.asked:  # else a figure that is known answers for the picture by now
+            self._last = accuracy
+            self._tell(accuracy)
 
     def _on_failed(self, _: AccuracyQuestion, message: Message) -> None:
         self._show(lambda panel: panel.show_failure(message))

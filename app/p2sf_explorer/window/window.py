@@ -44,7 +44,7 @@ from p2sf_explorer.state.panels import PANELS, REGISTRY, view_of
 from p2sf_explorer.state.state import Display, State
 from p2sf_explorer.state.workspaces import exchange, kept_in_rail, on_show, on_stage, place_panels, put_to_tabs
 from p2sf_explorer.store.late_answers import LateAnswers
-from p2sf_explorer.store.live_accuracy import AccuracyDisplay, LiveAccuracy, asked_for
+from p2sf_explorer.store.live_accuracy import AccuracyDisplay, LiveAccuracy
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.caption import Caption
 from p2sf_explorer.widgets.drop import DropFrame, dropped_path, is_photo
@@ -393,7 +393,7 @@ class MainWindow(QMainWindow):
 
     def _pause_accuracy(self, on: bool) -> None:
         """Measure no accuracy for a while, unless its panel is on show, or measure again."""
-        self.measuring.rest(on and not asked_for(self.store.state))
+        self.measuring.film(on)
 
     def _part(self, key: str) -> QWidget:
         """Return the part of the window that a film shows."""

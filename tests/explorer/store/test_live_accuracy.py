@@ -1,7 +1,11 @@
 """The background measure: R² against the Huygens sum arrives by itself, and every method's is in order."""
 
+from time import sleep
+from types import SimpleNamespace
+
+import numpy as np
 import pytest
-from PySide6.QtCore import QSizeF
+from PySide6.QtCore import QObject, QSizeF
 
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.reference import Accuracy, measure
@@ -9,7 +13,8 @@ from p2sf_explorer.lessons.measures import MEASURES
 from p2sf_explorer.panels.accuracy import anchors
 from p2sf_explorer.state.scales import written_r_squared
 from p2sf_explorer.state.state import change, new_state
-from p2sf_explorer.store.live_accuracy import fits
+from p2sf_explorer.store import live_accuracy
+from p2sf_explorer.store.live_accuracy import REST_MS, LiveAccuracy, fits
 from p2sf_explorer.window.window import MainWindow
 from tests.support.windows.windows import at_rest
 
@@ -105,3 +110,78 @@ def test_the_names_of_the_methods_stay_inside_and_take_different_sides(qapp):
     first, second, last = anchors(labels, [(20, 20), (90, 20), (310, 80)], (330, 95))
     assert first[0] <= 0 and (second[0] <= 0 or second[1] != first[1])
     assert last[0] > 1  # hangs to the left of its dot: at the right it would run out
+
+
+def answer_of(lens, quality="settled", tab="accuracy"):
+    """Return as much of an answer as its accuracy asks for, told apart by the name of its lens."""
+    psf = SimpleNamespace(method="seidel", numbers=6, values=np.zeros((2, 2)), pixel_um=1.0)
+    setup = SimpleNamespace(lens=lens, source="source", altered=False)
+    return SimpleNamespace(setup=setup, psf=psf, state=new_state(tab=tab), quality=quality, pending=None)
+
+
+@pytest.fixture
+def watched(qapp, qtbot, monkeypatch):
+    """Return a measuring that takes no time, the lenses that it has measured, and the figures shown."""
+    lenses, shown = [], []
+
+    def measured(question, stopped, tell):
+        lenses.append(question.live.setup.lens)
+        reference = SimpleNamespace(method="huygens")
+        return SimpleNamespace(live=question.live, results=(1,), r_squared=0.9, reference=reference)
+
+    monkeypatch.setattr(live_accuracy, "_measured", measured)
+    panel = SimpleNamespace(show_accuracy=lambda found, stale: shown.append((found.live.setup.lens, stale)))
+    root = QObject()
+    made = LiveAccuracy(lambda *_: None, lambda: panel, root)
+    yield made, lenses, shown
+    made.late.stop()
+
+
+def test_a_picture_that_was_left_again_is_not_measured(watched, qtbot):
+    """The figure of the present picture is known: that of the one between would stand in its place."""
+    measuring, lenses, shown = watched
+    measuring.watch(answer_of("a"))
+    qtbot.waitUntil(lambda: shown == [("a", False)])
+    measuring.watch(answer_of("b"))
+    measuring.watch(answer_of("a"))
+    qtbot.wait(2 * REST_MS)
+    assert lenses == ["a"] and shown == [("a", False)] * 2
+
+
+def test_a_figure_that_comes_when_its_picture_was_left_takes_no_known_ones_place(watched, qtbot):
+    measuring, lenses, shown = watched
+    measuring.watch(answer_of("a"))
+    qtbot.waitUntil(lambda: shown == [("a", False)])
+    measuring.film(True)
+    measuring.watch(answer_of("b"))
+    while len(lenses) < 2:
+        sleep(0.001)  # in which no event is handled: what is found stays in the queue
+    measuring.watch(answer_of("a"))
+    qtbot.waitUntil(lambda: not measuring.late.busy)
+    assert lenses == ["a", "b"] and shown == [("a", False)] * 2
+
+
+@pytest.mark.parametrize("then", ["film", "no answer", "drag"])
+def test_a_picture_that_does_not_stand_is_not_measured(watched, qtbot, then):
+    measuring, lenses, _ = watched
+    measuring.watch(answer_of("a", tab="mtf"))
+    if then == "film":
+        measuring.film(True)
+    else:
+        measuring.watch(None if then == "no answer" else answer_of("b", "preview"))
+    assert not measuring.late.busy
+    qtbot.wait(2 * REST_MS)
+    assert lenses == []
+
+
+@pytest.mark.parametrize(("tab", "lenses"), [("accuracy", ["a"]), ("mtf", [])], ids=["on show", "not on show"])
+def test_a_film_measures_at_once_what_it_shows_and_nothing_else(watched, qtbot, tab, lenses):
+    measuring, measured, _ = watched
+    measuring.film(True)
+    measuring.watch(answer_of("a", tab=tab))
+    assert not measuring.late._held.isActive() and measuring.late.busy == bool(lenses)
+    qtbot.waitUntil(lambda: not measuring.late.busy)
+    assert measured == lenses
+    measuring.film(False)
+    measuring.watch(answer_of("b", tab=tab))
+    assert measuring.late._held.isActive()
