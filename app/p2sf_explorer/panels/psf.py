@@ -103,9 +103,9 @@ class PsfPanel:
         return finer(found, self._view, live.airy_radius_um) if found else None
 
     def _take(self, request: PsfRequest, psf: Psf) -> str:
-        """Show a finer picture if it is that of the present answer."""
+        """Keep a finer picture, which is not asked for again, and show it if it is that of the present answer."""
+        self._finer.keep(request, psf)
         if self._live and request == self._finer_request(self._live):
-            self._finer.keep(request, psf)
             self._paint(self._live, psf)
         return ""
 

@@ -63,14 +63,16 @@ def test_no_edge_of_the_computed_square_is_painted():
     assert picture[0].max() == picture[:, -1].max() == 0.0 and picture[8:-8, 8:-8].min() == 1.0
 
 
-def test_a_finer_picture_that_comes_late_is_not_shown(window, qtbot):
+def test_a_finer_picture_that_comes_late_is_kept_but_not_shown(window, qtbot):
     panel = window.panels["psf"]
     window.store.update(method="fitted", f_number=8.0, field_deg=4.0)
     wanted = panel._finer_request(window.live)
     window.store.update(field_deg=5.0)
     before = panel.map.indices
-    panel._take(wanted, live(new_state()).psf)
+    late = live(new_state()).psf
+    panel._take(wanted, late)
     assert wanted and panel.map.indices is before
+    assert panel._finer.get(wanted) is late, "it may have been asked last, and is not asked again"
 
 
 @pytest.mark.parametrize(
