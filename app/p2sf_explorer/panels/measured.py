@@ -184,7 +184,9 @@ class MeasuredPanel:
 
     def _measure(self) -> None:
         asked = with_file_date(self._asked) if self._asked else None
-        if asked is None or asked == self._request:
+        if asked is None:
+            return
+        if asked == self._request and (self._stopped or not asked.picture or self.worker.asked == asked):
             return
         if self._request is None or asked.picture != self._request.picture:
             self._found = None

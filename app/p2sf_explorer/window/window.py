@@ -615,9 +615,14 @@ def _lectures(language: str) -> "tuple[dict[str, Lesson], tuple[P2SFError, ...]]
 
 
 def paint(panel: Panel, key: str, live: Live) -> None:
-    """Have a panel show an answer and the side of a comparison that it is of, or say why it has nothing to show."""
+    """Have a panel show an answer and the side of a comparison that it is of, or say why it has nothing to show.
+
+    A panel that is covered wants nothing more of what it has asked.
+    """
     panel.widget.show_state(live.state)
     if (view := live.views.get(key)) and view.why:
+        for late in panel.widget.findChildren(LateAnswers):
+            late.forget()
         panel.widget.show_overlay(said(view.why))
         return
     panel.show(live)

@@ -154,7 +154,7 @@ class ImagePanel:
         self._show_choices(state)
         self.split_view.show_split(state.photo.split)
         self.split_view.show_look(state.photo.look)
-        if asked != self._asked:
+        if asked != self.quick.asked:
             self._asked = asked
             self._call_off()
             self.quick.submit(asked, work(self._quickest(asked), asked))
