@@ -80,6 +80,16 @@ def cubic_matrix(count: int, samples: int) -> np.ndarray:
     return matrix
 
 
+def windowed_sinc(away: np.ndarray, half_width: float, beta: float) -> np.ndarray:
+    """Return the weight of a sample ``away`` by so many pitches, at most ``half_width``: a sinc times a Kaiser window.
+
+    The window is I₀(β√(1 − t²))/I₀(β) (Kaiser & Schafer 1980, IEEE Trans. ASSP 28, 105). Of a band-limited function.
+    """
+    root = np.sqrt(np.maximum(1 - np.square(away / half_width), 0))
+    weights: np.ndarray = np.sinc(away) * np.i0(beta * root) / np.i0(beta)
+    return weights
+
+
 def cubic(away: np.ndarray) -> np.ndarray:
     """Return the cubic-convolution weight of a sample ``away`` by so many pitches (Keys 1981, equation 15)."""
     near = (1.5 * away - 2.5) * away**2 + 1

@@ -1,9 +1,9 @@
 """The light on square pixels from samples of an intensity between them (handbook 6.6).
 
 An incoherent image holds no frequency above 2NA/λ (Goodman 2005, §6.3), so that samples closer than λ/(4 NA) determine
-it between them too: by a sinc, here times a Kaiser window so that some ten samples on either side suffice (Kaiser 1974;
-Oppenheim & Schafer 2010, §7.5.3). What is interpolated is integrated over each pixel, along rows and columns one after
-the other; pixels and samples need have no common measure.
+it between them too: by a sinc, here times a Kaiser window so that ten samples on either side suffice. What is
+interpolated is integrated over each pixel, along rows and columns one after the other; pixels and samples need have no
+common measure.
 """
 
 from dataclasses import dataclass
@@ -14,6 +14,7 @@ import numpy as np
 
 from p2sf.conventions import write_protect
 from p2sf.disc.quadrature import gauss_legendre
+from p2sf.figures.enlarge import windowed_sinc
 
 ROUNDING = 1e-9
 LARGEST = 2048  # fine samples a side: beyond, sums take minutes
@@ -96,9 +97,9 @@ def _products(grid: FineGrid, values: np.ndarray) -> np.ndarray:
 
 @lru_cache(maxsize=16)
 def _weights(pixels: int, per_pixel: float) -> list[tuple[int, np.ndarray]]:
-    """Return what samples count for the light between two edges of each pixel, AT_ONCE pixels after another.
+    """Return the weights of samples for the light on AT_ONCE pixels after another, (pixels, samples).
 
-    Each with the place of its first sample, from the chief ray's: (…, samples) of those not zero for all its pixels.
+    Before each stands the place of its first sample, counted from the chief ray's.
     """
     edges, blocks = (np.arange(pixels + 1) - pixels // 2 - 0.5) * per_pixel, []
     for begin in range(0, pixels, AT_ONCE):
@@ -131,14 +132,7 @@ def _table() -> tuple[np.ndarray, np.ndarray]:
     """
     node, weight = gauss_legendre(GAUSS)
     start = np.arange(HALF_WIDTH * STEPS)[:, None]
-    parts = _windowed_sinc((start + (1 + node) / 2) / STEPS) @ weight / (2 * STEPS)
+    parts = windowed_sinc((start + (1 + node) / 2) / STEPS, HALF_WIDTH, BETA) @ weight / (2 * STEPS)
     total = np.append(0.0, np.cumsum(parts))
-    slopes = _windowed_sinc(np.arange(total.size) / STEPS) / STEPS
+    slopes = windowed_sinc(np.arange(total.size) / STEPS, HALF_WIDTH, BETA) / STEPS
     return write_protect(total / (2 * total[-1])), write_protect(slopes / (2 * total[-1]))
-
-
-def _windowed_sinc(place: np.ndarray) -> np.ndarray:
-    """Return the sinc times a Kaiser window, I₀(β√(1 − t²))/I₀(β)."""
-    root = np.sqrt(np.maximum(1 - np.square(place / HALF_WIDTH), 0))
-    found: np.ndarray = np.sinc(place) * np.i0(BETA * root) / np.i0(BETA)
-    return found

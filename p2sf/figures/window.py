@@ -53,11 +53,6 @@ def resolved(psf: PsfData, na: float | np.ndarray) -> bool:
     return bool(np.all(psf.pixel_um <= critical_pixel_um(psf.wavelength_um, na) * (1 + ROUNDING)))
 
 
-def strehl(psf: PsfData) -> float | np.ndarray | None:
-    """Return the highest sample divided by the unaberrated peak of the same pupil; None without one."""
-    return psf.strehl
-
-
 def centroid(psf: PsfData) -> tuple[np.ndarray, np.ndarray]:
     """Return x and y of the centroid of the window, µm from the chief ray, shape of the stack.
 

@@ -1,5 +1,8 @@
 """What of six coefficients blurs: the parts of their variance, and the focus that balances them (handbook 3.4)."""
 
+from typing import overload
+
+from p2sf.conventions import FloatOrArray
 from p2sf.paraxial.seidel import Coefficients
 
 ALIKE = 4.0  # of the variance: the focus of third order then is that of the rays up to a factor of two
@@ -7,15 +10,15 @@ LEAST_CAUSE = 0.2  # of the focus that a coefficient makes if it is named
 
 
 def variance_parts(coefficients: Coefficients) -> dict[str, float]:
-    """Return how the variance of the six coefficients' W (waves²) is to be laid to each of them; tilt is left out.
+    """Return how much of the variance of the six coefficients' W (waves²) each of them causes; tilt is left out.
 
     Spherical beyond its best focus W40²/180, coma beyond its tilt W31²/72, astigmatism about its medial focus W22²/24,
-    and all focus together (W40 + W20 + Wd + W22/2)²/12 (Mahajan 1991, table 2-1). What pushes the focus the way it is
-    off shares that part, each by its size; what pulls against it has none.
+    and all focus together (W40 + W20 + Wd + W22/2)²/12 (Mahajan 1991, table 2-1). Coefficients that push the focus the
+    way it is off share that part by their size; those that pull against it have none of it.
     """
     w40, w31, w22, w20, wd = (float(getattr(coefficients, name)) for name in ("w40", "w31", "w22", "w20", "wd"))
     causes = {"w40": w40, "w20": w20 + w22 / 2, "wd": wd}
-    focus = sum(causes.values())
+    focus = _even_focus(coefficients)
     pushes = {name: max(0.0, cause * focus) for name, cause in causes.items()}
     whole = sum(pushes.values()) or 1.0
     shares = {name: focus**2 / 12 * push / whole for name, push in pushes.items()}
@@ -25,12 +28,20 @@ def variance_parts(coefficients: Coefficients) -> dict[str, float]:
 
 
 def strongest(coefficients: Coefficients) -> str:
-    """Return which of the six coefficients is to be changed first: the one that most of the variance is laid to."""
+    """Return which of the six coefficients is to be changed first: the one that causes most of the variance."""
     parts = variance_parts(coefficients)
     return max(parts, key=parts.__getitem__)
 
 
-def depth_of_focus_um(image_index: float, wavelength_um: float, na: float) -> float:
+@overload
+def depth_of_focus_um(image_index: float, wavelength_um: float, na: float) -> float: ...
+
+
+@overload
+def depth_of_focus_um(image_index: FloatOrArray, wavelength_um: FloatOrArray, na: FloatOrArray) -> FloatOrArray: ...
+
+
+def depth_of_focus_um(image_index: FloatOrArray, wavelength_um: FloatOrArray, na: FloatOrArray) -> FloatOrArray:
     """Return n′λ/NA², µm: so far a shift of the sensor makes half a wave of defocus (Born & Wolf 1999, §8.8.2).
 
     Its sign is that of the index, which is negative behind an odd number of mirrors.
@@ -44,7 +55,7 @@ def best_focus_um(c: Coefficients) -> float:
     The parts of W40, W20 + Wd and W22 that are alike over the pupil are (W40 + W20 + Wd + W22/2)ρ² (Welford 1986, §7.7,
     for the depth 2n′λW/NA² of a defocus).
     """
-    return abs(2 * depth_of_focus_um(float(c.image_index), float(c.wavelength_um), float(c.na)) * _even_focus(c))
+    return abs(2 * float(depth_of_focus_um(c.image_index, c.wavelength_um, c.na)) * _even_focus(c))
 
 
 def _even_focus(c: Coefficients) -> float:

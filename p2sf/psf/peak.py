@@ -13,6 +13,7 @@ from math import ceil, hypot, sqrt
 import numpy as np
 
 from p2sf.conventions import centred_axis
+from p2sf.figures.enlarge import windowed_sinc
 from p2sf.pupil.plane_waves import Waves
 from p2sf.threads import one_blas_thread
 
@@ -28,7 +29,7 @@ MOST_MAXIMA = 256  # that are interpolated
 TOO_CLOSE = 2e-3  # of the highest: maxima that interpolation, good to 5e-4, and rounding do not tell apart
 ROUGHLY = 0.1  # the same of waves that only resemble those of the picture
 MOST_CLIMBS = 4  # from those
-MOST_IN_PREVIEW = 2**12  # most waves for a climb in a preview, which otherwise takes the interpolated one
+MOST_IN_PREVIEW = 2**12  # most waves for a climb in a preview; with more it takes the top by interpolation
 CLIMB_STEPS = 12  # of Newton's method
 MOST_WHILE_CLIMBING = 2**22  # waves times steps, beyond which fewer steps have to do: a second for all
 MANY_WAVES = 2**14  # from which on plane ones say where to climb: of a small Fresnel number there are fewer
@@ -180,14 +181,8 @@ def _interpolated(
 
 @lru_cache(maxsize=1)
 def _kernel() -> np.ndarray:
-    """Return the weights of samples for a band-limited function at offsets, (offsets, 2·TAPS + 1): a windowed sinc.
-
-    Source: Kaiser & Schafer 1980, IEEE Trans. Acoust. Speech Signal Process. 28, 105.
-    """
-    away = OFFSETS[:, None] - np.arange(-TAPS, TAPS + 1)
-    window = np.i0(WINDOWING * np.sqrt(np.maximum(0, 1 - (away / (TAPS + 1)) ** 2))) / np.i0(WINDOWING)
-    weights: np.ndarray = np.sinc(away) * window
-    return weights
+    """Return the weights of samples for a band-limited function at offsets, (offsets, 2·TAPS + 1)."""
+    return windowed_sinc(OFFSETS[:, None] - np.arange(-TAPS, TAPS + 1), TAPS + 1, WINDOWING)
 
 
 def _highest(waves: Waves, tops: list[Peak], told: float) -> Peak:

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from p2sf.conventions import UM_PER_MM, FloatOrArray
 from p2sf.lens.lens import Lens, seen_from
 from p2sf.lens.source import Source
+from p2sf.paraxial.balance import depth_of_focus_um
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.pupils import Stop
 from p2sf.paraxial.seidel import Coefficients, coefficients
@@ -92,7 +93,7 @@ def real_foci(lens: Lens, source: Source, field_slope: ArrayLike, stop: Stop | N
 
 def seidel_foci(c: Coefficients) -> Foci:
     """Return the foci where W20 + Wd and W20 + W22 + Wd vanish: Δz = −2n′λW/NA² (Welford 1986, §7.7), mm."""
-    scale = -2 * c.image_index * c.wavelength_um / c.na**2 / UM_PER_MM
+    scale = -2 * depth_of_focus_um(c.image_index, c.wavelength_um, c.na) / UM_PER_MM
     return Foci(scale * (c.w20 + c.wd), scale * (c.w20 + c.w22 + c.wd))
 
 

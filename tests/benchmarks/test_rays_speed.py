@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_limits
 
+from p2sf.lens.lens import indices
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.compare import r_squared
 from p2sf.psf.fitted import fitted_psf
@@ -19,7 +20,9 @@ from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import choose, render
 from p2sf.psf.seidel import suitable_pixel_um
 from p2sf.psf.traced import traced_psf
+from p2sf.raytrace import trace as raytrace
 from p2sf.raytrace.pencil import opd_map, trace
+from p2sf_explorer.compute.meridional import path
 from tests.support.reference import case, huygens_rows
 
 ROUNDS = 200
@@ -120,3 +123,23 @@ def test_auto_64(benchmark, capsys, references):
     """Choose and render, as a slider at rest does."""
     score = against(render(LENS, SOURCE, pixel_um=WIDE), references[WIDE])
     report(benchmark, capsys, None, lambda: render(LENS, SOURCE, pixel_um=WIDE), score)
+
+
+@pytest.mark.parametrize("way", ["plain numbers", "arrays"])
+def test_five_rays_of_the_layout(benchmark, capsys, way):
+    """Why the layout has a tracer of its own: five meridional rays to the sensor, from where they enter."""
+    wave, slope = SOURCE.wavelength_um, SOURCE.field_slope
+    index, height = indices(LENS, wave).tolist(), 0.1 * LENS.surfaces[0].semi_diameter
+    starts = [(-1.0, part * height) for part in (-2, -1, 1, 2, 0)]
+    origins = np.array([[0.0, y, z] for z, y in starts])
+    direction = np.array([0.0, slope, 1.0])
+
+    def plain():
+        return [path(LENS, index, wave, start, (1.0, slope)) for start in starts]
+
+    def arrays():
+        return raytrace.trace(LENS, origins, np.broadcast_to(direction, origins.shape), wave)
+
+    heights, landed = [ray[1][-1] for ray in plain()], arrays().points[-1][:, 1]
+    np.testing.assert_allclose(landed, heights, rtol=1e-9)
+    report(benchmark, capsys, None, plain if way == "plain numbers" else arrays)

@@ -13,6 +13,7 @@ from p2sf.figures.measures import Energy
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.metrics.measures import energy_in, mtf_of
+from p2sf.paraxial.balance import depth_of_focus_um
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.pupils import find_stop
 from p2sf.paraxial.wavefront import wavefront
@@ -70,7 +71,7 @@ def focus_um(which: str) -> Measure:
     def shift(made: ParaxialSetup) -> SupportsFloat:
         c = made.coefficients
         waves = c.w20 + c.wd + ASTIGMATISM[which] * c.w22
-        return -2 * c.image_index * c.wavelength_um * waves / c.na**2
+        return -2 * depth_of_focus_um(c.image_index, c.wavelength_um, c.na) * waves
 
     return of_setup(shift)
 

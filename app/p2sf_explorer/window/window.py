@@ -279,7 +279,7 @@ class MainWindow(QMainWindow):
         self.second.stop()
         for panel in self.panels.values():
             panel.widget.show_state(state)
-            panel.widget.show_overlay(said(NO_ANSWER))
+            cover(panel, NO_ANSWER)
         if lens := draw_setup(state):
             self.panels["layout"].show(lens)  # type: ignore[arg-type]  # which uses no more of an answer than this
             self.panels["layout"].widget.show_overlay("")
@@ -615,18 +615,20 @@ def _lectures(language: str) -> "tuple[dict[str, Lesson], tuple[P2SFError, ...]]
 
 
 def paint(panel: Panel, key: str, live: Live) -> None:
-    """Have a panel show an answer and the side of a comparison that it is of, or say why it has nothing to show.
-
-    A panel that is covered wants nothing more of what it has asked.
-    """
+    """Have a panel show an answer and the side of a comparison that it is of, or say why it has nothing to show."""
     panel.widget.show_state(live.state)
     if (view := live.views.get(key)) and view.why:
-        for late in panel.widget.findChildren(LateAnswers):
-            late.forget()
-        panel.widget.show_overlay(said(view.why))
+        cover(panel, view.why)
         return
     panel.show(live)
     panel.widget.show_overlay("")
     why = live.difference.why.get(key) if live.difference else None
     note = why or message_if_misaligned(live.setup.lens, PANELS[key].aligned)
     panel.widget.show_side("A" if why else live.side, said(note) if note else "")
+
+
+def cover(panel: Panel, why: Message) -> None:
+    """Say in a panel's place why it has nothing to show; it wants nothing more of what it has asked."""
+    for late in panel.widget.findChildren(LateAnswers):
+        late.forget()
+    panel.widget.show_overlay(said(why))

@@ -83,3 +83,16 @@ def test_beside_a_difference_the_radii_are_said_to_be_those_of_a(window, qtbot):
     assert "A: R50" not in caption.text()
     window.store.update(shown="difference")
     qtbot.waitUntil(lambda: "A: R50" in caption.text())
+
+
+def test_the_same_question_is_answered_once(window, qtbot, monkeypatch):
+    """Energy too slow for a frame, of a state that is shown twice, and then of another."""
+    made, module = [], "p2sf_explorer.compute.views.profiles"
+    monkeypatch.setattr(f"{module}.energy_is_live", lambda *given: False)
+    late, answer = window.panels["profiles"].late, window.panels["profiles"].late._answer
+    monkeypatch.setattr(late, "_answer", lambda *given: made.append(given[0]) or answer(*given))
+    for field_deg, count in ((4.0, 1), (4.0, 1), (6.0, 2)):
+        window.store.update(field_deg=field_deg, tab="profiles", method="seidel")
+        window.refresh(window.store.state)
+        qtbot.waitUntil(lambda: not late.busy)
+        assert len(made) == count

@@ -10,6 +10,7 @@ from p2sf_explorer.compare.comparison import answers
 from p2sf_explorer.compute.setup import paraxial_setup, with_lens
 from p2sf_explorer.compute.views.mtf import contrast
 from p2sf_explorer.state.state import change, new_state
+from p2sf_explorer.store.late_answers import LateAnswers
 from p2sf_explorer.widgets.copying import data_of
 from p2sf_explorer.window.no_answer import NO_ANSWER, UNKNOWN
 
@@ -106,3 +107,12 @@ def test_a_difference_is_as_it_was_where_a_side_has_nothing(window):
     seen = answers(asked, "preview", b_refuses).seen
     assert str(seen.difference.why["mtf"]) == "This is A; B has none: the blur is too wide for a table; stop down"
     assert answers(asked, "preview", {"mtf": refusing}).seen.views["mtf"].why == REASON
+
+
+def test_no_panel_goes_on_with_what_it_asked_before(window):
+    """A question that is held: nobody would see its answer, and films would wait for it."""
+    late = LateAnswers(window.panels["psf"].widget, lambda question, stopped, tell: question, held_ms=10_000)
+    late.ask_when_held("of the lens before")
+    assert late.busy
+    window.store.replace(TOO_FAR)
+    assert not late.busy and late.asked is None

@@ -1,7 +1,7 @@
 """Sections of the PSF through the chief ray, and its encircled energy."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from math import prod
 
 import numpy as np
@@ -54,6 +54,18 @@ class ProfileCurves:
     pending: MeasureRequest | None = None
     highest: float = 0.0
     rough: bool = False
+
+    def __eq__(self, other: object) -> bool:
+        """Return whether all is equal: the same question has one answer."""
+        if not isinstance(other, ProfileCurves):
+            return NotImplemented
+        return all(_same(getattr(self, each.name), getattr(other, each.name)) for each in fields(self))
+
+
+def _same(one: object, other: object) -> bool:
+    if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
+        return np.array_equal(one, other, equal_nan=True)
+    return one == other
 
 
 def profiles(live: Live) -> View[ProfileCurves]:
