@@ -80,6 +80,8 @@ class NotedChart(Chart):
         for (_, _, words, token, _), room in zip(self.notes, self.note_rooms(), strict=True):
             if room.width() > self.area.width():
                 continue  # of a small chart the line alone tells
+            if room.top() > self.area.top():  # below others, perhaps over a picture
+                painter.fillRect(room, self._colour("card"))
             painter.setPen(self._colour(token))
             write(painter, room, words, -1, self.theme.tick)
 
