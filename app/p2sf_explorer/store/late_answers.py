@@ -124,9 +124,14 @@ class LateAnswers(QObject):
         self._held.stop()
 
     def follow(self, view: View[Any]) -> None:
-        """Ask what a view leaves to be asked, at once or once it is held; where nothing is left, want nothing more."""
+        """Ask what a view leaves to be asked, at once or once it is held; where nothing is left, want nothing more.
+
+        What is answered already is painted once more, since the panel has begun anew.
+        """
         if view.question is None:
             self.forget()
+        elif self._shown and self._shown[0] == view.question == self.asked:
+            self.again()
         else:
             (self.ask_when_held if view.held else self.ask)(view.question)
 

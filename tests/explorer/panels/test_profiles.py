@@ -96,3 +96,4 @@ def test_the_same_question_is_answered_once(window, qtbot, monkeypatch):
         window.refresh(window.store.state)
         qtbot.waitUntil(lambda: not late.busy)
         assert len(made) == count
+        assert window.panels["profiles"].within.data()[1].max() > 0.9, "the energy is painted, also the second time"
