@@ -126,7 +126,7 @@ def test_a_frame_that_nothing_explains_has_reasons_and_no_numbers(triplet, tmp_p
 @pytest.mark.slow
 def test_a_single_point_that_nothing_explains_has_reasons_and_no_numbers(triplet, tmp_path):
     """A point taken twice, the sensor moved by 5 pixels between: no wavefront of four coefficients makes two points."""
-    once = simulated_frame(triplet, np.array([[0.0, 0.0]]), FrameGeometry(80, 80, PITCH), Exposure(read_noise=2.0))
+    once = simulated_frame(triplet, np.array([[0.0, 0.0]]), FrameGeometry(44, 44, PITCH), Exposure(read_noise=2.0))
     twice = replace(once, values=once.values + np.roll(once.values, 5, axis=1))
     found = measure_frame([twice], lens_optics(triplet, np.inf, 0.55, PITCH))
     (fit,) = found.fits
