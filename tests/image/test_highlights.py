@@ -38,7 +38,7 @@ def test_the_halo_of_a_bright_point_is_that_of_every_ray(mask, channel):
 
     A single pixel is off by at most 3e-5 of the peak, where spikes are finer than pixels.
     """
-    half, at = (60, 66) if channel is RED else (20, 30)
+    half, at = (40, 46) if channel is RED else (20, 30)
     lens = with_mask(find_lens("double_gauss_28"), mask)
     sensor = Sensor(2 * at + 1, 2 * at + 1, 6.0, (0.0, 8.0))
     planned = plan(lens, Scene(sensor, (channel,), f_number=5.6, tail_error=0.1))
