@@ -9,7 +9,7 @@ import numpy as np
 
 from p2sf.arguments import first_place
 from p2sf.conventions import FARTHEST_MM, UM_PER_MM
-from p2sf.errors import RequestError
+from p2sf.errors import P2SFError, RequestError, SamplingError
 from p2sf.messages import Message, Style
 
 LARGEST_OBSCURATION = 0.99
@@ -17,6 +17,8 @@ MOST_VANES, WIDEST_VANE = 12, 0.5
 FEWEST_BLADES, MOST_BLADES = 3, 32
 NARROWEST_APODISATION, MOST_POWER = 0.1, 20
 FASTEST, SLOWEST = 0.01, 1e6  # f-numbers: wide of every lens, and of pinholes of a wavelength
+LARGEST_SIDE = 2**12  # samples along each side of a PSF or a transform: 128 MiB, and several times that in a sum
+WIDEST_PIXEL_UM = 1e6  # a metre
 LONGEST_PATH_UM = 1e6  # a metre: steeper than any real phase plate, and far below the overflow of slopes
 INFINITE = "{parameter} is {value:g}{unit}; give a positive number, inf allowed"
 FINITE = "{parameter} is {value:g}{unit}; give a positive finite number"
@@ -130,6 +132,32 @@ def check_count(name: str, value: int | None, low: int, most: int) -> None:
             value=value,
             low=low,
             high=most,
+        )
+
+
+def check_whole(
+    name: str, value: int | None, low: int, most: int, error: Callable[..., P2SFError] = RequestError
+) -> None:
+    """Raise an error, RequestError, unless a number is whole and within a range; None passes."""
+    if value is not None and not (_is_whole(value) and low <= value <= most):
+        raise error(
+            "{parameter} is {value}; give a whole number from {low} to {high}",
+            parameter=name,
+            value=value,
+            low=low,
+            high=most,
+        )
+
+
+def check_samples(pixels: int | None, pixel_um: float | None, least: int = 1, most: int = LARGEST_SIDE) -> None:
+    """Raise SamplingError for samples along each side, or a pitch in µm, that no PSF can have; None passes.
+
+    One sample is a PSF, whose figures take two at ``least``.
+    """
+    check_whole("pixels", pixels, least, most, SamplingError)
+    if pixel_um is not None and not 0 < pixel_um < WIDEST_PIXEL_UM:
+        raise SamplingError(
+            "{parameter} is {value:g} µm; give a positive number below a metre", parameter="pixel_um", value=pixel_um
         )
 
 

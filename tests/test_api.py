@@ -195,8 +195,8 @@ def test_a_database_is_built_written_opened_and_asked(tmp_path, method):
     [
         (lambda: p2sf.tradeoff(LENS, fields_deg=[0, 175]), "fields_deg is 175°"),
         (lambda: p2sf.build_database(LENS, [inf], [0, 175], [550]), "fields_deg is 175°"),
-        (lambda: p2sf.tradeoff(LENS, fields_deg=[0], pixels=0), "a PSF of 0 samples; give a whole number"),
-        (lambda: p2sf.tradeoff(LENS, fields_deg=[0], pixel_um=0), "a pixel of 0 µm; give a positive number"),
+        (lambda: p2sf.tradeoff(LENS, fields_deg=[0], pixels=0), "pixels is 0; give a whole number from 1"),
+        (lambda: p2sf.tradeoff(LENS, fields_deg=[0], pixel_um=0), "pixel_um is 0 µm; give a positive number"),
         (lambda: p2sf.render(LENS, p2sf.Source(field_slope=np.array([0.0, 0.1]))), r"of shape \(2,\)"),
         (lambda: p2sf.coefficients(LENS, p2sf.Source(np.array([500.0]))), r"of shape \(1,\)"),
         (lambda: p2sf.choose_method(LENS, p2sf.Source(wavelength_um=np.array([0.5, 0.6]))), r"of shape \(2,\)"),
@@ -223,11 +223,11 @@ def test_what_cannot_be_is_one_sentence_before_the_work(call, words):
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ({"pixels": 0}, "a PSF of 0 samples"),
-        ({"pixels": 16.0}, "a PSF of 16.0 samples"),
-        ({"pixel_um": 0.0}, "a pixel of 0.0 µm"),
-        ({"pixel_um": nan}, "a pixel of nan µm"),
-        ({"pixel_um": inf}, "a pixel of inf µm"),
+        ({"pixels": 0}, "pixels is 0"),
+        ({"pixels": 16.0}, "pixels is 16.0"),
+        ({"pixel_um": 0.0}, "pixel_um is 0 µm"),
+        ({"pixel_um": nan}, "pixel_um is nan µm"),
+        ({"pixel_um": inf}, "pixel_um is inf µm"),
         ({"quality": "best"}, 'quality "best" is unknown'),
         ({"min_r2": nan}, "min_r2 is nan"),
         ({"min_r2": 1.5}, "min_r2 is 1.5; give the R² to hold, below 1"),
@@ -340,7 +340,7 @@ def test_a_wavefront_of_the_six_coefficients_gives_their_psf():
         (np.full((64, 64), nan), {}, "give one that lets light through"),
         (5 * XI**2 * SIZE, {}, "give it on a finer grid"),
         (np.zeros((16, 16)), {"pixels": 64}, "repeats its PSF every 40 µm, and the window is 80 µm wide"),
-        (np.zeros((64, 64)), {"pixels": 0}, "a PSF of 0 samples; give a whole number"),
+        (np.zeros((64, 64)), {"pixels": 0}, "pixels is 0; give a whole number from 1"),
     ],
 )
 def test_a_wavefront_that_cannot_be_summed_is_one_sentence(opd, options, words):

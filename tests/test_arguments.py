@@ -9,7 +9,7 @@ import pytest
 import p2sf
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface
-from p2sf.psf.seidel import LARGEST_SIDE
+from p2sf.parameters import LARGEST_SIDE
 from p2sf_explorer.state.state import FIRST, change
 
 LENS = p2sf.load_lens("achromat_f6")
@@ -235,7 +235,7 @@ def test_more_samples_than_memory_holds_are_refused_at_once(method):
     for pixels in (LARGEST_SIDE + 1, 100_000):
         with pytest.raises(p2sf.P2SFError) as raised:
             p2sf.render(LENS, method=method, pixels=pixels)
-        assert raised.value.message.values["most"] == LARGEST_SIDE
+        assert raised.value.message.values["high"] == LARGEST_SIDE
     with pytest.raises(p2sf.P2SFError):
         p2sf.psf_of_opd(np.zeros((32, 32)), 0.1, 550, pixels=100_000)
 

@@ -12,7 +12,7 @@ from cyclopts import App, Parameter
 
 from p2sf.cli.cautions import open_lens
 from p2sf.cli.lookups import accuracy_rows
-from p2sf.cli.options import AS_IN_ITS_FILE, CameraFlags, Json, LensName, Threads, check_samples
+from p2sf.cli.options import AS_IN_ITS_FILE, CameraFlags, Json, LensName, Threads
 from p2sf.cli.screen import FILLED, Row, print_json, print_table, text, warn
 from p2sf.conventions import NM_PER_UM, degrees_from_slope, slope_from_degrees
 from p2sf.database.accuracy import DatabaseAccuracy, accuracy, build_by, check_kind
@@ -25,6 +25,7 @@ from p2sf.errors import RequestError
 from p2sf.files.writing import check_ending, check_place, plain
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message, ParameterName
+from p2sf.parameters import check_samples
 from p2sf.psf.methods import by_six
 from p2sf.raytrace.focusing import object_distance
 from p2sf.setting import Request, set_up, usual_depths
@@ -92,7 +93,7 @@ class DatabaseKind:
     scheduler: str | None = None
 
     def __post_init__(self) -> None:
-        check_samples(self.pixels, self.pixel_um)
+        check_samples(self.pixels, self.pixel_um, least=2)
         check_kind(self.method, self.interpolant, False)
 
 

@@ -6,11 +6,12 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from cyclopts import Parameter
 
-from p2sf.cli.options import Json, check_output, check_samples
+from p2sf.cli.options import Json, check_output
 from p2sf.cli.screen import percent_line, print_json, warn
 from p2sf.database.files.place import is_url
 from p2sf.database.render import Sampling
 from p2sf.files.writing import plain
+from p2sf.parameters import check_samples
 
 if TYPE_CHECKING:
     from p2sf.export.psf_cube import Cube
@@ -38,7 +39,7 @@ class RenderedOptions:
     depth_mm: float | None = None
 
     def __post_init__(self) -> None:
-        check_samples(self.pixels, self.pixel_um)
+        check_samples(self.pixels, self.pixel_um, least=2)
 
 
 def export(

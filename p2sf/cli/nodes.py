@@ -6,9 +6,10 @@ import numpy as np
 from cyclopts import Parameter
 
 from p2sf.cli.cautions import open_lens
-from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, check_whole
+from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName
 from p2sf.cli.screen import Row, heading, print_json, print_table, warn
 from p2sf.conventions import degrees_from_slope
+from p2sf.parameters import check_whole
 from p2sf.paraxial.bending import elements
 from p2sf.setting import Setup, set_up
 from p2sf.tolerance.nodal import FieldAberrations, NodalSensitivities, field_aberrations, nodal_sensitivities

@@ -14,7 +14,6 @@ from p2sf.files.writing import check_known_ending, check_place
 from p2sf.setting import Request, Settings
 
 WHOLE = re.compile(r"\s*[+-]?\d+\s*")
-MOST_PIXELS = 2048  # 32 MiB a picture; a kernel of this width still fits any machine
 
 
 def check_whole_numbers(app: App, commands: tuple[str, ...], arguments: ArgumentCollection) -> None:
@@ -61,25 +60,3 @@ def check_output(output: Path | None, endings: Iterable[str], *inputs: str | Pat
                 path=str(output),
                 input=str(path),
             )
-
-
-def check_whole(name: str, value: int, low: int, high: int) -> None:
-    """Raise RequestError unless a whole number lies between two, both allowed."""
-    if not low <= value <= high:
-        raise RequestError(
-            "{parameter} is {value}; give a whole number from {low} to {high}",
-            parameter=name,
-            value=value,
-            low=low,
-            high=high,
-        )
-
-
-def check_samples(pixels: int | None, pixel_um: float | None) -> None:
-    """Raise RequestError for samples that no picture can have; None passes."""
-    if pixels is not None:
-        check_whole("pixels", pixels, 2, MOST_PIXELS)
-    if pixel_um is not None and not 0 < pixel_um < 1e6:
-        raise RequestError(
-            "{parameter} is {value:g} µm; give a positive number below a metre", parameter="pixel_um", value=pixel_um
-        )

@@ -6,9 +6,9 @@ from typing import Annotated, Literal
 from cyclopts import Parameter
 
 from p2sf.api import Method
-from p2sf.cli.options import check_samples
 from p2sf.errors import RequestError, SamplingError
 from p2sf.messages import ParameterName
+from p2sf.parameters import check_samples
 from p2sf.psf.methods import AUTO, by_six
 
 
@@ -81,7 +81,7 @@ class Picture:
     clip: bool = False
 
     def __post_init__(self) -> None:
-        check_samples(self.pixels, self.pixel_um)
+        check_samples(self.pixels, self.pixel_um, least=2)
         if not 0 < self.min_r2 < 1:
             raise RequestError(
                 "{parameter} is {value:g}; give an R² between 0 and 1, such as 0.99",

@@ -13,16 +13,7 @@ from cyclopts import Parameter
 
 from p2sf.camera import Camera
 from p2sf.cli.cautions import open_lens
-from p2sf.cli.options import (
-    AS_IN_ITS_FILE,
-    CameraFlags,
-    Json,
-    LensName,
-    Output,
-    Threads,
-    check_output,
-    check_whole,
-)
+from p2sf.cli.options import AS_IN_ITS_FILE, CameraFlags, Json, LensName, Output, Threads, check_output
 from p2sf.cli.screen import print_json, print_table, warn
 from p2sf.errors import RequestError
 from p2sf.files.writing import plain, write_beside
@@ -33,13 +24,14 @@ from p2sf.io.photo_files import WRITABLE, Photo, check_ending, kept_depth, read_
 from p2sf.io.record import RECORD, describe_many
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message, ParameterName
+from p2sf.parameters import check_whole
 from p2sf.raytrace.focusing import object_distance
 from p2sf.scene.files import read_scene
 from p2sf.scene.planning.plan import Plan, plan
 from p2sf.scene.planning.table import plan_facts, plan_rows, plan_sentences
 from p2sf.scene.planning.verify import verify
 from p2sf.scene.scene import DIMMEST, MOST_LIGHT, RGB, Scene
-from p2sf.scene.sensor import LARGEST_SIDE, Sensor
+from p2sf.scene.sensor import MOST_ROWS, Sensor
 from p2sf.setting import explicit_values, set_up
 from p2sf.threads import using_threads
 
@@ -174,7 +166,7 @@ class Shown:
     def __post_init__(self) -> None:
         check_seed(self.seed)
         if self.longest is not None:
-            check_whole("longest", self.longest, 1, LARGEST_SIDE)
+            check_whole("longest", self.longest, 1, MOST_ROWS)
         given = {each.name for each in fields(self) if getattr(self, each.name) != each.default}
         for first, other in (
             ("region", "preview"),

@@ -8,11 +8,12 @@ from cyclopts import Parameter
 
 from p2sf.camera import Camera
 from p2sf.cli.cautions import open_lens
-from p2sf.cli.options import AS_IN_ITS_FILE, CameraFlags, Json, Output, check_output, check_whole
+from p2sf.cli.options import AS_IN_ITS_FILE, CameraFlags, Json, Output, check_output
 from p2sf.cli.screen import print_json, print_table
 from p2sf.errors import ExportError, RequestError
 from p2sf.files.reasons import reason
 from p2sf.files.writing import write_beside, write_json
+from p2sf.parameters import check_whole
 
 if TYPE_CHECKING:
     from p2sf.studies.tradeoff import MethodCost

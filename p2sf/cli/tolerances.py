@@ -8,11 +8,11 @@ import numpy as np
 from cyclopts import Parameter
 
 from p2sf.cli.cautions import open_lens
-from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, check_whole
+from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName
 from p2sf.cli.screen import field_text, print_json, print_table, warn
 from p2sf.errors import RequestError
 from p2sf.lens.source import Source
-from p2sf.parameters import check_positive
+from p2sf.parameters import check_positive, check_whole
 from p2sf.setting import Setup, set_up
 from p2sf.tolerance.builds import SUMMED_RMS, Builds, by_form, simulate
 from p2sf.tolerance.criteria import CRITERIA, LARGE_IS_GOOD, Criterion, harms, of_worst_field, share_within

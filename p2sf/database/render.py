@@ -13,10 +13,11 @@ from p2sf.disc.mask import PupilMask
 from p2sf.figures import pixel_light
 from p2sf.figures.pixel_light import FineGrid, fine_grid
 from p2sf.lens.source import Source
+from p2sf.parameters import check_samples
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.psf.pixel_integrals import integrate
 from p2sf.psf.result import Psf
-from p2sf.psf.seidel import check_image, check_samples, check_window, seidel_psf, suitable_pixel_um
+from p2sf.psf.seidel import check_image, check_window, seidel_psf, suitable_pixel_um
 from p2sf.psf.seidel_stack import stack_of
 from p2sf.threads import map_threads, one_blas_thread
 

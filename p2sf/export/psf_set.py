@@ -10,10 +10,12 @@ import numpy as np
 from p2sf.conventions import NM_PER_UM, slope_from_degrees
 from p2sf.database.accuracy import where
 from p2sf.errors import GeometryError, RequestError, SamplingError
+from p2sf.figures.pixel_light import LARGEST
 from p2sf.image.progress import Progress
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
+from p2sf.parameters import check_samples
 from p2sf.pixel_kernels.frequency_grid import pupil_map
 from p2sf.pixel_kernels.illumination import light_collected
 from p2sf.pixel_kernels.pixels import PixelWindow, half_width, part_filled_kernel, samples_across
@@ -24,7 +26,6 @@ from p2sf.raytrace.pencil import pencil
 from p2sf.threads import for_each, one_blas_thread
 
 EVERY_FRINGE = 2.0  # samples a λ/2NA, as `part_filled_kernel` needs
-WIDEST_SUM = 2048  # samples a side of a sum of waves; over so wide a blur pixels average what diffraction adds
 MOST_PIXELS = 1024  # a side
 LEAST_LIGHT = 0.9  # of a PSF in its pixels: below, a warning is due
 PIXELS = 65  # a side, of one that nobody names: odd, for a chief ray on the middle one
@@ -64,12 +65,9 @@ class PixelGrid:
     pixels: int | None = None
 
     def __post_init__(self) -> None:
-        if not 0 < self.pixel_um < np.inf:
-            raise RequestError("the pixel is {pixel:g} µm; give a pitch above 0", pixel=self.pixel_um)
+        check_samples(self.pixels, self.pixel_um, most=MOST_PIXELS)
         if not 0 < self.fill_factor <= 1:
             raise RequestError("the fill factor is {fill:g}; give a part above 0 and up to 1", fill=self.fill_factor)
-        if self.pixels is not None and not 1 <= self.pixels <= MOST_PIXELS:
-            raise RequestError("{pixels} pixels a side; give 1 to {most}", pixels=self.pixels, most=MOST_PIXELS)
 
 
 @dataclass(frozen=True, eq=False)
@@ -175,7 +173,7 @@ def _light(lens: Lens, point: Source, grid: PixelGrid, clip: bool) -> Light:
     try:
         pupil = pupil_map(lens, point, "fitted", None, clip)
         half = half_width(pupil, grid.pixel_um)
-        if (2 * half + 1) * _samples(pupil, grid) <= WIDEST_SUM:
+        if (2 * half + 1) * _samples(pupil, grid) <= LARGEST:
             return pupil
     except (GeometryError, SamplingError):  # rays are lost: their density says where the others go
         pass
@@ -203,7 +201,7 @@ def _on_pixels(light: Light, grid: PixelGrid, pixels: int) -> np.ndarray:
     else:
         samples = _samples(light, grid)
         # Twice as wide as need be: what wraps around at the edge of the transform is the light of the far wings.
-        wide = max(own, min(2 * max(half, own), (WIDEST_SUM // samples - 1) // 2))
+        wide = max(own, min(2 * max(half, own), (LARGEST // samples - 1) // 2))
         found = part_filled_kernel(light, PixelWindow(wide, grid.pixel_um, samples), grid.fill_factor)
     whole = np.pad(found[::-1], max(0, half - wide))  # beyond the largest transform there is no light to speak of
     first = max(wide, half) - half

@@ -17,7 +17,7 @@ from p2sf.disc.quadrature import gauss_legendre
 from p2sf.figures.enlarge import windowed_sinc
 
 ROUNDING = 1e-9
-LARGEST = 2048  # fine samples a side: beyond, sums take minutes
+LARGEST = 2048  # fine samples a side: beyond, sums take minutes, and pixels average what diffraction adds
 CLOSER = 1.2  # samples than λ/(4 NA): the window blurs the sinc's edge by a sixth of its width
 # Of the Kaiser window: the light of a clear pupil then errs by 1e-5 to 4e-5, relative L2, of a thin ring by up to 1e-3.
 HALF_WIDTH, BETA = 10, 8.5

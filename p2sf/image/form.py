@@ -37,8 +37,8 @@ from p2sf.image.pupil_moments import MOMENTS, Passing, PupilLandings, moments_of
 from p2sf.image.region import Region, check_region, tiles, whole
 from p2sf.image.structure import FLAT, centroid_px, change_of_shade, structured_parts
 from p2sf.messages import Alternatives, ParameterName
+from p2sf.parameters import LARGEST_SIDE
 from p2sf.pixel_kernels.nodes import nodes_along
-from p2sf.pixel_kernels.pixels import LARGEST_WINDOW
 from p2sf.scene.planning.cost import BYTES, MOST_KERNELS, TILE
 from p2sf.scene.planning.plan import Plan
 from p2sf.scene.scene import Scene
@@ -641,7 +641,7 @@ def _check_layers(scene: Scene, values: ArrayLike, depth_mm: np.ndarray | None) 
     return stack_layers([check_picture(scene, layer[..., :-1]) for layer in stack], stack[..., -1], depths)
 
 
-def node_kernels(planned: Plan, vergence: float, most_half: int = LARGEST_WINDOW) -> NodeKernels:
+def node_kernels(planned: Plan, vergence: float, most_half: int = LARGEST_SIDE) -> NodeKernels:
     """Return the kernels of every channel on the plan's nodes at one depth, to be computed when needed.
 
     No kernel extends beyond ``most_half`` pixels: light beyond is dropped, and the rest has unit sum.
@@ -661,7 +661,7 @@ def node_kernels(planned: Plan, vergence: float, most_half: int = LARGEST_WINDOW
 
 
 def plan_lattice(
-    planned: Plan, vergence: float, watch: Progress | None = None, most_half: int = LARGEST_WINDOW
+    planned: Plan, vergence: float, watch: Progress | None = None, most_half: int = LARGEST_SIDE
 ) -> Lattice:
     """Return the kernels of every channel on the plan's nodes at one depth; ``most_half`` as in `node_kernels`."""
     sensor, nodes = planned.scene.sensor, node_kernels(planned, vergence, most_half)

@@ -14,8 +14,9 @@ from p2sf.disc.mask_cells import wings
 from p2sf.image.lattice import pad_to_largest
 from p2sf.image.region import Region, whole
 from p2sf.metrics.tails import FAINTEST, FARTHEST
+from p2sf.parameters import LARGEST_SIDE
 from p2sf.pixel_kernels.channel import RAYS, Colour, Kernels, Points
-from p2sf.pixel_kernels.pixels import LARGEST_WINDOW, samples_each
+from p2sf.pixel_kernels.pixels import samples_each
 from p2sf.pixel_kernels.pupil_stack import PupilStack
 from p2sf.scene.planning.plan import Plan
 
@@ -82,7 +83,7 @@ class FullKernels:
             # Light beyond r, seen from the edge of a disc: 1/(π²·r·radius) (Born & Wolf, 8.5.2, for large r).
             faint = FAINTEST * float(point.kernels(np.array([own]))[0].max())
             reach = min(reach, (wings(mask) * pixel**2 / (2 * pi**3 * radius * faint)) ** (1 / 3))
-        most = int(LARGEST_WINDOW / samples_each(pupils, pixel, FINENESS).max() / 2 - 1) // 2
+        most = int(LARGEST_SIDE / samples_each(pupils, pixel, FINENESS).max() / 2 - 1) // 2
         sensor = self.planned.scene.sensor
         return max(own, min(own + ceil(reach / pixel), most, max(sensor.rows, sensor.columns)))
 

@@ -11,8 +11,9 @@ from p2sf.image.form import Forming, form_image, plan_lattice
 from p2sf.image.lattice import Lattice
 from p2sf.image.progress import Progress
 from p2sf.lens.lens import Lens
+from p2sf.parameters import LARGEST_SIDE
 from p2sf.pixel_kernels.channel import RAYS, Light, Recipe
-from p2sf.pixel_kernels.pixels import LARGEST_WINDOW, samples_across
+from p2sf.pixel_kernels.pixels import samples_across
 from p2sf.pixel_kernels.pupil_stack import PixelPupil
 from p2sf.pupil.fit import levels_for
 from p2sf.scene.field_area import field_area
@@ -28,7 +29,7 @@ BY_RAYS = Recipe(RAYS)
 MOST_RESIDUAL = 0.5  # waves RMS: with a larger residual a fit describes the blur less well than rays do
 # Numbers of kernels by samples along the side of a wave sum's transform, and by pixels along that of rays.
 WAVE_COUNTS = ((800, (3, 3)), (1200, (2, 2)))
-RAY_COUNTS = ((300, (3, 3)), (450, (2, 2)), (LARGEST_WINDOW, (1, 1)))
+RAY_COUNTS = ((300, (3, 3)), (450, (2, 2)), (LARGEST_SIDE, (1, 1)))
 UNKNOWN = Cost(0.0, 0.0, 0.0)
 
 

@@ -9,11 +9,11 @@ import numpy as np
 from p2sf.conventions import FloatOrArray
 from p2sf.disc.mask_cells import inside_share, open_share, turned_back, wings
 from p2sf.errors import SamplingError
+from p2sf.parameters import LARGEST_SIDE
 from p2sf.pixel_kernels.pupil_stack import PixelPupil, PupilStack, Turned, stack_pupils, turn_pupils
 from p2sf.pixel_kernels.ray_spread import RaySpread
 
 TAIL = 8.0  # of λ/NA: the width of the diffraction wings kept beyond where rays land, times `wings` behind a mask
-LARGEST_WINDOW = 4096
 SINC = np.float32(1 - np.pi**2 / 6), np.float32(np.pi**4 / 120 + 1 - np.pi**2 / 6)  # of sinc(t)/(1 − t²), in t²
 BLOCK = 32768  # samples of pupils in one block
 TOGETHER = 65536  # samples of the light that are transformed together
@@ -131,7 +131,7 @@ def sampled_light(pupils: PupilStack, angles: np.ndarray, window: PixelWindow, s
     import scipy.fft
 
     count, pitch, side = window.size * window.samples, window.pixel_um / window.samples, transform_side(window)
-    if side > LARGEST_WINDOW:
+    if side > LARGEST_SIDE:
         raise SamplingError(
             "a blur of {size} pixels with {samples} samples each needs a {side}² transform; "
             "bring the depths nearer to focus, stop down, or ask for larger pixels",

@@ -17,13 +17,12 @@ from p2sf.disc.transform import matrix_dft
 from p2sf.errors import SamplingError
 from p2sf.files.writing import plain
 from p2sf.messages import Message
-from p2sf.parameters import check_positive
+from p2sf.parameters import check_positive, check_samples
 from p2sf.psf import pixel_integrals
 from p2sf.psf.opd_array import opd_intensity
 from p2sf.psf.peak import Peak, peak_of
 from p2sf.psf.picture import psf_of_intensity, resolved
 from p2sf.psf.result import Psf, warn_of_window
-from p2sf.psf.seidel import check_samples
 from p2sf.pupil.plane_waves import Waves
 from p2sf.threads import one_blas_thread
 

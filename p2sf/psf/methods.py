@@ -18,6 +18,7 @@ from p2sf.errors import GeometryError, P2SFError, RequestError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message
+from p2sf.parameters import check_samples
 from p2sf.paraxial.seidel import Coefficients, check_seidel, coefficients, reason_against_coefficients
 from p2sf.psf.compare import flatness_of
 from p2sf.psf.fitted import MOST_NODES as MOST_FITTED
@@ -27,15 +28,7 @@ from p2sf.psf.huygens import LAST_PASS, RayPupil, Watch, blur_um2, nodes_from, s
 from p2sf.psf.huygens import MOST_NODES as MOST_RAYS
 from p2sf.psf.prediction import EDGE_ERROR, SAFETY, TRACED_ERROR, USELESS, predicted_error, seidel_sigma
 from p2sf.psf.result import Psf
-from p2sf.psf.seidel import (
-    WINDOW_AIRY_RADII,
-    check_focus,
-    check_image,
-    check_quality,
-    check_samples,
-    seidel_psf,
-    suitable_pixel_um,
-)
+from p2sf.psf.seidel import WINDOW_AIRY_RADII, check_focus, check_image, check_quality, seidel_psf, suitable_pixel_um
 from p2sf.psf.seidel_stack import LARGEST_NODES, as_fit
 from p2sf.psf.spherical import (
     fresnel_number,

@@ -1,7 +1,7 @@
 """The PSF of the six coefficients over a uniform circular pupil: the `seidel` method (handbook 4.1)."""
 
 from functools import partial
-from math import isfinite, prod
+from math import prod
 from time import perf_counter
 
 import numpy as np
@@ -16,6 +16,7 @@ from p2sf.disc.transform import check_fft, padded_fft, sum_plane_waves
 from p2sf.errors import GeometryError, SamplingError
 from p2sf.figures.psf_data import Later, PsfFigures
 from p2sf.messages import Message
+from p2sf.parameters import LARGEST_SIDE, check_samples
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import steepest_polar, steepest_slope, wavefront
 from p2sf.psf.fitted import MOST_FOR_PEAK, waves_reaching
@@ -29,10 +30,8 @@ from p2sf.raytrace.ray_field import AIRY_RADIUS
 from p2sf.threads import one_blas_thread
 
 WINDOW_AIRY_RADII = 5
-LARGEST_SIDE = 2**12  # samples along each side: a picture of 128 MiB, and several of them during the sum
 LARGEST_SAMPLES = 2**28  # of all PSFs of a call: 2 GiB of float64
 FFT_RADIUS = {"preview": 64, "settled": 256}  # pupil radius in FFT samples: its rim is only second-order accurate
-LARGEST_FFT = 4096
 MOST_SEARCHED = 16  # PSFs of a stack whose peaks are sought everywhere; for more, only near the brightest sample
 
 
@@ -100,13 +99,13 @@ def _by_fft(coefficients: Coefficients, pixels: int, pixel_um: float, quality: s
 def fft_samples(coefficients: Coefficients, pixels: int, pixel_um: float, quality: str = "preview") -> int:
     """Return the paper's NPUPIL: at least 2·NPSF, its period holds blur and window, and the rim is fine enough.
 
-    Raises SamplingError if that exceeds LARGEST_FFT.
+    Raises SamplingError if that exceeds LARGEST_SIDE.
     """
     scale = np.abs(wave_number(coefficients)) * pixel_um
     blur = float(np.max(steepest_slope(coefficients) / scale))
-    rim = min(LARGEST_FFT, FFT_RADIUS[quality] / float(np.min(scale)))
+    rim = min(LARGEST_SIDE, FFT_RADIUS[quality] / float(np.min(scale)))
     samples = even_count(max(2 * pixels, 2 * blur + pixels, rim))
-    if samples > LARGEST_FFT or 2 * samples * float(np.max(scale)) > LARGEST_FFT:  # a wide pixel has a wide pupil
+    if samples > LARGEST_SIDE or 2 * samples * float(np.max(scale)) > LARGEST_SIDE:  # a wide pixel has a wide pupil
         raise SamplingError(
             "an FFT of {samples} × {samples} pupil samples is too large; use mdft or change the pixel", samples=samples
         )
@@ -263,18 +262,6 @@ def check_window(coefficients: Coefficients, pixels: int, pixel_um: float | None
             raise SamplingError("an empty stack of PSFs has no width of its own; give the pixel in µm")
         return float(np.max(suitable_pixel_um(coefficients, pixels)))
     return float(pixel_um)
-
-
-def check_samples(pixels: int, pixel_um: float | None) -> None:
-    """Raise SamplingError for an impossible count or pitch; a pitch of None passes."""
-    if isinstance(pixels, bool) or not isinstance(pixels, int | np.integer) or pixels < 1:
-        raise SamplingError("a PSF of {pixels} samples; give a whole number from 1", pixels=pixels)
-    if pixels > LARGEST_SIDE:
-        raise SamplingError(
-            "{parameter} is {value}; give at most {most} a side", parameter="pixels", value=pixels, most=LARGEST_SIDE
-        )
-    if pixel_um is not None and not (isfinite(pixel_um) and pixel_um > 0):
-        raise SamplingError("a pixel of {pixel_um} µm; give a positive number", pixel_um=pixel_um)
 
 
 def check_quality(quality: str) -> None:

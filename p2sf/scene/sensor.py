@@ -12,7 +12,7 @@ from p2sf.errors import RequestError
 from p2sf.messages import Alternatives, ParameterName
 from p2sf.parameters import check_between
 
-LARGEST_SIDE = 2**15
+MOST_ROWS = 2**15  # and columns
 LARGEST_WELL = 1e9  # electrons, a thousand times what any pixel holds
 MOST_BITS = 16
 MOSAICS = ("rggb", "grbg", "gbrg", "bggr")
@@ -43,8 +43,8 @@ class Sensor:
 
     def __post_init__(self) -> None:
         check_fields(self)
-        self._check_whole("rows", 1, LARGEST_SIDE)
-        self._check_whole("columns", 1, LARGEST_SIDE)
+        self._check_whole("rows", 1, MOST_ROWS)
+        self._check_whole("columns", 1, MOST_ROWS)
         if not 0 < self.pixel_um < 1e5:
             raise RequestError(
                 "sensor pixel_um is {pitch:g} µm; give a positive pitch below 0.1 m", pitch=self.pixel_um

@@ -18,12 +18,12 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.metrics.compare import Errors, compare
-from p2sf.parameters import check_angle
+from p2sf.parameters import check_angle, check_samples
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import NAMES, REFERENCE, PsfOptions, method_of, render
 from p2sf.psf.result import Psf
-from p2sf.psf.seidel import check_samples, suitable_pixel_um
+from p2sf.psf.seidel import suitable_pixel_um
 from p2sf.raytrace.focusing import object_distance
 from p2sf.setting import AS_IN_FILE, AimChoice, CameraData, set_up_source, with_camera
 from p2sf.studies.other_sampling import SAMPLED, check_sampling, sampled_psf, sampled_ways

@@ -80,6 +80,7 @@ def test_a_bundle_of_which_the_chief_ray_alone_arrives_has_no_psf():
     ("options", "words"),
     [
         (["--pixels", "1"], "--pixels is 1; give a whole number from 2"),
+        (["--pixels", "4097"], "--pixels is 4097; give a whole number from 2 to 4096"),
         (["--pixel-um", "-2"], "--pixel-um is -2 µm; give a positive number"),
     ],
 )

@@ -11,7 +11,7 @@ import pytest
 from PIL import Image
 
 from p2sf.conventions import slope_from_degrees
-from p2sf.errors import Cancelled, ExportError, GeometryError, RequestError
+from p2sf.errors import Cancelled, ExportError, GeometryError, P2SFError, RequestError
 from p2sf.export.psf_set import PixelGrid, PsfSet, SetAxes, psf_set
 from p2sf.export.psf_set_files import table, write_psf_set
 from p2sf.image.progress import Progress
@@ -225,10 +225,10 @@ def test_progress_is_told_and_a_cancelled_set_is_none():
 
 @pytest.mark.parametrize(
     ("grid", "why"),
-    [((0.0,), "pitch above 0"), ((4.0, 0.0), "fill factor"), ((4.0, 1.2), "fill factor"), ((4.0, 1.0, 0), "1 to 1024")],
+    [((0.0,), "pixel_um is 0"), ((4.0, 0.0), "fill factor"), ((4.0, 1.2), "fill factor"), ((4.0, 1.0, 0), "1 to 1024")],
 )
 def test_a_grid_that_cannot_be_is_refused(grid, why):
-    with pytest.raises(RequestError, match=why):
+    with pytest.raises(P2SFError, match=why):
         PixelGrid(*grid)
 
 

@@ -31,10 +31,10 @@ from p2sf.lens.positions import without_positions
 from p2sf.lens.source import Source, check_one
 from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
 from p2sf.messages import Message
+from p2sf.parameters import check_samples
 from p2sf.paraxial.pupils import Stop, find_stop
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.psf.result import Psf, warn_of_window
-from p2sf.psf.seidel import check_samples
 from p2sf.raytrace.focusing import object_distance
 
 if TYPE_CHECKING:

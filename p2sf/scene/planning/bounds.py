@@ -8,7 +8,8 @@ from p2sf.conventions import UM_PER_MM, depth_of
 from p2sf.errors import GlassError, SamplingError
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
-from p2sf.pixel_kernels.pixels import LARGEST_WINDOW, half_widths, samples_each
+from p2sf.parameters import LARGEST_SIDE
+from p2sf.pixel_kernels.pixels import half_widths, samples_each
 from p2sf.pixel_kernels.pupil_stack import PupilStack
 from p2sf.scene.planning.study import SAMPLINGS, Sampling, Study
 from p2sf.scene.scene import Scene
@@ -36,7 +37,7 @@ def check_blur(study: Study) -> None:
     pixel = study.scene.sensor.pixel_um
     halves, sides = transforms(*study.fitted(study.corners), pixel, SAMPLINGS[-1])
     widest = int(sides.argmax())
-    if sides[widest] > LARGEST_WINDOW:
+    if sides[widest] > LARGEST_SIDE:
         depth = depth_of(study.corners[widest].vergence)
         raise SamplingError(
             "points {depth} away blur over {size:.2g} mm, which takes {side}² "
@@ -44,7 +45,7 @@ def check_blur(study: Study) -> None:
             depth=Message("∞") if isinf(depth) else Message("{depth:.4g} mm", depth=depth),
             size=float(2 * halves[widest] + 1) * pixel / UM_PER_MM,
             side=int(sides[widest]),
-            most=LARGEST_WINDOW,
+            most=LARGEST_SIDE,
         )
 
 

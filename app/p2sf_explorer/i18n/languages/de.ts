@@ -1247,7 +1247,6 @@
 <message><source>[aperture] states {count} of {names}; keep exactly one</source><translation>[aperture] gibt {count} von {names} an; genau eines behalten</translation></message>
 <message><source>[sensor] lacks {missing}; add it</source><translation>in [sensor] fehlt {missing}; hinzufügen</translation></message>
 <message><source>a Fresnel surface</source><translation>eine Fresnel-Fläche</translation></message>
-<message><source>a PSF of {pixels} samples; give a whole number from 1</source><translation>eine PSF aus {pixels} Proben; eine ganze Zahl ab 1 angeben</translation></message>
 <message><source>a Zemax file with configurations</source><translation>eine Zemax-Datei mit Konfigurationen</translation></message>
 <message><source>a bend (BEN) about more than one axis is not read; write the tilt behind it by itself</source><translation>eine Knickung (BEN) um mehr als eine Achse wird nicht gelesen; die Kippung dahinter für sich schreiben</translation></message>
 <message><source>a black box that hides its surfaces</source><translation>eine Black Box, die ihre Flächen verbirgt</translation></message>
@@ -1279,7 +1278,7 @@
 <message><source>a phase slope of {slope:.0f} waves over a window of {cycles:.0f} cycles needs {rows} × {columns} pupil samples; bring the sensor nearer to the image, stop down, or show a smaller window</source><translation>eine Phasensteigung von {slope:.0f} Wellen über ein Fenster von {cycles:.0f} Perioden braucht {rows} × {columns} Pupillenproben; den Sensor dem Bild nähern, abblenden oder ein kleineres Fenster zeigen</translation></message>
 <message><source>a picture in ≤ {ms} ms</source><translation>ein Bild in ≤ {ms} ms</translation></message>
 <message><source>a picture of {shape} pixels; give at least {least} × {least}</source><translation>ein Bild von {shape} Pixeln; mindestens {least} × {least} angeben</translation></message>
-<message><source>a pixel of {pixel_um} µm; give a positive number</source><translation>ein Pixel von {pixel_um} µm; eine positive Zahl angeben</translation></message>
+<message><source>{parameter} is {value:g} µm; give a positive number below a metre</source><translation>{parameter} ist {value:g} µm; eine positive Zahl unter einem Meter angeben</translation></message>
 <message><source>a point at ({x:.4g}, {y:.4g}) mm lies off the sensor; take a larger one</source><translation>ein Punkt bei ({x:.4g}, {y:.4g}) mm liegt neben dem Sensor; einen größeren nehmen</translation></message>
 <message><source>a profile through "{place}" is unknown; choose "chief" or "peak"</source><translation>ein Profil durch "{place}" ist unbekannt; "chief" oder "peak" wählen</translation></message>
 <message><source>a pupil grid of {size} samples; give an even count of at least 2</source><translation>ein Pupillengitter aus {size} Proben; eine gerade Anzahl ab 2 angeben</translation></message>
@@ -2210,7 +2209,6 @@
 <message><source>the picture holds whole numbers, as codes of sRGB are; convert it to linear light, in floats with white 1</source><translation>das Bild enthält ganze Zahlen wie die Codes von sRGB; wandeln Sie es in lineares Licht um, in Gleitkommazahlen mit Weiß bei 1</translation></message>
 <message><source>the picture was cancelled before it was done</source><translation>das Bild wurde abgebrochen, bevor es fertig war</translation></message>
 <message><source>the picture {name} is not in {folder} any more; put it back there, or choose another</source><translation>das Bild {name} ist nicht mehr in {folder}; dorthin zurücklegen oder ein anderes wählen</translation></message>
-<message><source>the pixel is {pixel:g} µm; give a pitch above 0</source><translation>das Pixel misst {pixel:g} µm; einen Abstand über 0 angeben</translation></message>
 <message><source>the pupil</source><translation>die Pupille</translation></message>
 <message><source>the pupil is too distorted for polynomials over its spatial frequencies, which give {share:.3g} times its light; stop the lens down or reduce the field</source><translation>die Pupille ist zu verzerrt für Polynome über ihren Ortsfrequenzen, die das {share:.3g}-Fache ihres Lichts finden; abblenden oder das Feld verkleinern</translation></message>
 <message><source>the range to play is {value}; give where it begins and where it ends</source><translation>der Bereich zum Abspielen ist {value}; angeben, wo er beginnt und wo er endet</translation></message>
@@ -2681,7 +2679,6 @@
 <message><source>{parameter} is {value}; give a whole number from {low} to {high}</source><translation>{parameter} ist {value}; eine ganze Zahl von {low} bis {high} angeben</translation></message>
 <message><source>{parameter} is {value}; give a whole number of 1 or more</source><translation>{parameter} ist {value}; eine ganze Zahl ab 1 angeben</translation></message>
 <message><source>{parameter} is {value}; give an even number from {low} to {high}</source><translation>{parameter} ist {value}; eine gerade Zahl von {low} bis {high} angeben</translation></message>
-<message><source>{parameter} is {value}; give at most {most} a side</source><translation>{parameter} ist {value}; geben Sie höchstens {most} je Seite an</translation></message>
 <message><source>{parameter} is {value}; give positive distances in front of the lens</source><translation>{parameter} ist {value}; Abstände vor dem Objektiv angeben, größer als 0</translation></message>
 <message><source>{parameter} is {value}; give one angle in degrees, or two, x and y</source><translation>{parameter} ist {value}; einen Winkel in Grad angeben oder zwei, x und y</translation></message>
 <message><source>{parameter} is {value}; give a tuple</source><translation>{parameter} ist {value}; geben Sie mehrere an, als Tupel</translation></message>
@@ -2740,7 +2737,6 @@
 <message><source>{percent:.1f} %</source><translation>{percent:.1f} %</translation></message>
 <message><source>{percent} % of the pupil</source><translation>{percent} % der Pupille</translation></message>
 <message><source>{pitch} µm pixels</source><translation>{pitch}-µm-Pixel</translation></message>
-<message><source>{pixels} pixels a side; give 1 to {most}</source><translation>{pixels} Pixel je Seite; 1 bis {most} angeben</translation></message>
 <message><source>the light on {pixels} pixels of {pixel_um:g} µm takes more than {most} samples a side; give fewer or smaller pixels, or {parameter} False</source><translation>über {pixels} Pixel von {pixel_um:g} µm zu integrieren braucht mehr als {most} Abtastwerte je Seite; geben Sie weniger oder kleinere Pixel an, oder {parameter} False</translation></message>
 <message><source>the order of the grating ({order:g}) turns rays towards +y where it is positive; see that it is meant so</source><translation>die Ordnung des Gitters ({order:g}) lenkt Strahlen nach +y, wenn sie positiv ist; prüfen, ob das so gemeint ist</translation></message>
 <message><source>toroid</source><translation>torische Fläche</translation></message>
