@@ -333,10 +333,10 @@ def mtf(
     [1.0, 0.86]
     """
     from p2sf.metrics.measures import mtf_of
-    from p2sf.metrics.transfer import check_contrast
+    from p2sf.metrics.transfer import line_counts
 
     check_finite("turn_deg", turn_deg)
-    how = {"method": method, "clip": clip, "turn_deg": turn_deg, "check": check_contrast}
+    how = {"method": method, "clip": clip, "turn_deg": turn_deg, "check": line_counts}
     parts, used = _pupil_parts(lens, source, spectrum, camera, **how)
     return mtf_of(parts, used, frequency_per_mm, turn_deg=turn_deg)
 
@@ -418,9 +418,9 @@ def line_spread(
     0.5
     """
     from p2sf.metrics.measures import spread_of
-    from p2sf.metrics.transfer import check_contrast
+    from p2sf.metrics.transfer import line_counts
 
-    parts, used = _pupil_parts(lens, source, spectrum, camera, method=method, clip=clip, check=check_contrast)
+    parts, used = _pupil_parts(lens, source, spectrum, camera, method=method, clip=clip, check=line_counts)
     return spread_of(parts, used, position_um)
 
 

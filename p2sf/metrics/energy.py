@@ -11,20 +11,19 @@ pupil, so that no edge is laid on a grid and nothing repeats itself, at the poin
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from math import ceil, hypot, pi
+from math import ceil, pi
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebint, chebval, chebvander
 
 from p2sf.conventions import write_protect
 from p2sf.disc.domain import PupilDomain
-from p2sf.disc.mask import mask_slopes
 from p2sf.disc.open_part import open_intervals, places_between
 from p2sf.disc.phasors import cosine_sine
 from p2sf.disc.quadrature import MOST_KEPT, even_count, gauss_legendre
 from p2sf.errors import SamplingError
 from p2sf.metrics.frequency_pupil import FrequencyPupil, landing_um, reach_of
-from p2sf.metrics.mask_lines import box_edges
+from p2sf.metrics.mask_edges import box_edges, slope_waves
 
 RADII = 128  # of a tabulated curve
 BEYOND = 6.0  # λ/NA beyond the outermost ray up to which light is summed; farther out there are the wings of an edge
@@ -126,12 +125,10 @@ def departure_of_rays(pupil: FrequencyPupil, centre_um: float, aside_um: float =
 
 def blur_waves(pupil: FrequencyPupil, centre_um: float, aside_um: float = 0.0) -> float:
     """Return how far from a point rays land at most along x or y, as waves over the pupil's larger radius."""
-    reach, mask = reach_of(pupil), pupil.mask
+    reach = reach_of(pupil)
     across = reach.x / pupil.half_x + abs(aside_um - pupil.centroid_x_um)
     up = reach.y / pupil.half_y + abs(centre_um - pupil.centroid_um)
-    slopes = mask_slopes(mask)
-    more = hypot(slopes.path_radial_um, slopes.path_angular_um) / abs(pupil.wavelength_um) if mask.phased else 0.0
-    return max(across, up) * max(pupil.half_x, pupil.half_y) + more
+    return max(across, up) * max(pupil.half_x, pupil.half_y) + slope_waves(pupil)
 
 
 def landing_energy(

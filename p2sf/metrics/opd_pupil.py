@@ -19,6 +19,7 @@ from p2sf.disc.zernike_terms import ZernikeOrder, zernike_terms, zernike_values
 from p2sf.errors import RequestError, SamplingError
 from p2sf.figures.hankel import HankelEnergy, hankel_energy
 from p2sf.figures.measures import PARTS, Energy, LineSpread, Mtf
+from p2sf.metrics.line_sums import LagSums
 from p2sf.metrics.perfect import circle_contrast
 from p2sf.metrics.transfer import OtfSlice, edge_spread, line_spread
 from p2sf.parameters import check_positive
@@ -264,12 +265,10 @@ class Pupil:
 
 def _autocorrelation(lines: np.ndarray) -> np.ndarray:
     """Return Σ line(j + k)·line(j)* over all lines, (lines, size), at the lags k = 0 … size."""
-    from scipy import fft
-
     size = lines.shape[-1]
-    spectrum = fft.fft(lines, fft.next_fast_len(2 * size + 1))
-    found: np.ndarray = fft.ifft((spectrum.real**2 + spectrum.imag**2).sum(0))[: size + 1]
-    return found
+    sums = LagSums(size)
+    sums.add(lines)
+    return sums.at_lags(size)
 
 
 @check_arguments

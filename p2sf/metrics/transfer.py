@@ -2,42 +2,52 @@
 
 The transfer function is the autocorrelation of the pupil over spatial frequency (Goodman 2005, eq. 6-28). Along y it is
 the sum over columns of constant fx of each column's own autocorrelation, along x the same of the pupil transposed: sums
-over even samples by FFT, with weights that end each column between two samples.
+over even samples by FFT (`line_sums`), with weights that end each open interval of a column between two samples.
 
 The same sums over the modulus of the pupil are those of the perfect lens. All weights are positive, so the triangle
 inequality |Σ w·P·P′*| ≤ Σ w·|P|·|P′| bounds the one by the other at every lag, whatever error the sums have.
 """
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import pi
 
 import numpy as np
-from numpy.polynomial.chebyshev import chebvander
 
 from p2sf.conventions import write_protect
-from p2sf.disc.phasors import cosine_sine
+from p2sf.disc.open_part import open_intervals, places_between
 from p2sf.disc.quadrature import even_count
-from p2sf.errors import Cancelled, SamplingError
-from p2sf.metrics.frequency_pupil import FrequencyPupil, Reach, reach_of, uniform_disc
-from p2sf.metrics.line_ends import ENDS, end_weights
-from p2sf.metrics.masked_transfer import MaskedLines, masked_lines, masked_sum
+from p2sf.errors import SamplingError
+from p2sf.metrics.frequency_pupil import FrequencyPupil, reach_of, uniform_disc
+from p2sf.metrics.line_sums import Lines, Stop, line_sums
+from p2sf.metrics.mask_edges import box_edges, slope_waves
 from p2sf.metrics.perfect import circle_contrast
 from p2sf.threads import never
 
-FEWEST_LINES, LINES_PER_WAVE, LINES_PER_END = 48, 2.5, 0.75
-FEWEST_SAMPLES, SAMPLES_PER_WAVE = 128, 8.0
 MOST_SAMPLES = 2**25  # of all lines: slopes of some 1500 waves, seconds of work
-AT_ONCE = 2**14  # samples of the lines in one block, so that a block stays in the cache
 CALIBRATED = 512  # lines: with more, what a calibration mends is below 1e-6
 SMALLEST = 1e-6  # of a calibrating contrast: below, both are negligible
 
 Counts = tuple[int, int]
 """Lines, and samples along each."""
-Sums = tuple[np.ndarray, np.ndarray]
-"""Autocorrelations at even lags, complex, and those of the modulus, real."""
-Stop = Callable[[], bool]
+Curves = list[np.ndarray]
+"""Closed curves, (2, points) each."""
+
+
+@dataclass(frozen=True)
+class CountRule:
+    """The fewest lines and samples, and how many lines more for rays that land a wave apart on a line and along it."""
+
+    lines: float
+    lines_per_wave: float
+    lines_per_end: float
+    samples: float
+
+
+PLAIN = CountRule(48, 2.5, 0.75, 128)
+EDGED = CountRule(320, 3.0, 0.0, 256)  # behind a mask, whose sums are not calibrated
+LINES_OF_RING, NARROW = 160, 0.35  # of a narrow ring, and the power of its width with which they grow
+SAMPLES_PER_WAVE, SAMPLES_PER_WIDTH = 8.0, 12.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,30 +88,36 @@ def otf_slices(pupil: FrequencyPupil, cancelled: Stop = never) -> tuple[OtfSlice
 
     ``cancelled`` is polled between blocks of lines and ends the work with `Cancelled`.
     """
-    if not pupil.plain:
-        lines = masked_lines(pupil)
-        return _masked_slice(pupil, lines[0], cancelled), _masked_slice(pupil, lines[1], cancelled)
-    across, along = line_counts(reach_of(pupil))
-    return _slice(pupil.transposed, across, False, cancelled), _slice(pupil, along, True, cancelled)
+    (across, along), other = line_counts(pupil), pupil.transposed
+    light, dark = ([], []) if pupil.plain else box_edges(pupil)
+    rows = columns_of(other, across, [edge[::-1] for edge in light], [edge[::-1] for edge in dark])
+    columns = columns_of(pupil, along, light, dark)
+    return slice_along_y(other, rows, False, cancelled), slice_along_y(pupil, columns, True, cancelled)
 
 
-def check_contrast(pupil: FrequencyPupil) -> None:
-    """Raise the SamplingError of `otf_slices` for a pupil that takes too many samples."""
-    _ = line_counts(reach_of(pupil)) if pupil.plain else masked_lines(pupil)
-
-
-def _slice(pupil: FrequencyPupil, counts: Counts, along_y: bool, cancelled: Stop = never) -> OtfSlice:
+def slice_along_y(pupil: FrequencyPupil, columns: Lines, along_y: bool, cancelled: Stop = never) -> OtfSlice:
     """Return the transfer function along y of a pupil, which for that along x is transposed."""
-    own, perfect = column_sum(pupil, counts, cancelled)
-    factor = _calibration(counts) if counts[0] <= CALIBRATED else np.ones(own.size)
-    step = 2 * pupil.half_y / counts[1]
+    own, perfect = line_sums(pupil, columns, cancelled)
+    counts = len(columns.places) * len(pupil.domain.images), columns.samples
+    factor = _calibration(counts) if pupil.plain and counts[0] <= CALIBRATED else np.ones(own.size)
+    step = 2 * pupil.half_y / columns.samples
     return OtfSlice(step, own * (factor / own[0].real), perfect * (factor / perfect[0]), along_y)
 
 
-def _masked_slice(pupil: FrequencyPupil, lines: MaskedLines, cancelled: Stop) -> OtfSlice:
-    own, perfect = masked_sum(pupil, lines, cancelled)
-    cut_off = pupil.cut_off_per_um[1 if lines.along_y else 0]
-    return OtfSlice(cut_off / lines.samples, own / own[0].real, perfect / perfect[0], lines.along_y)
+def columns_of(pupil: FrequencyPupil, counts: Counts, light: Curves, dark: Curves) -> Lines:
+    """Return columns of a pupil, of a symmetric one those with fx > 0, and their parts within edges.
+
+    They stand at Gauss–Chebyshev points, or where edges are given close at the ends of each, where the parts change as
+    a root does.
+    """
+    lines, samples = counts
+    if light:
+        places, weights = pupil.domain.of_lines(*places_between([*light, *dark], lines))
+        return Lines(samples, places, weights, *open_intervals(light, dark, places))
+    angle = (np.arange(lines // len(pupil.domain.images)) + 0.5) * (pi / lines)
+    places = np.cos(angle)
+    low, high = pupil.columns(places)
+    return Lines(samples, places, np.sin(angle), low[None], high[None])
 
 
 def line_spread(transfer: np.ndarray, step: float, position_um: np.ndarray) -> np.ndarray:
@@ -134,19 +150,28 @@ def _waves(transfer: np.ndarray, step: float, position_um: np.ndarray, first: in
 
 
 def otf_samples(pupil: FrequencyPupil) -> int:
-    """Return how many samples both slices of the transfer function take together, behind no mask."""
-    return sum(lines * samples for lines, samples in line_counts(reach_of(pupil)))
+    """Return how many samples both slices of the transfer function take together."""
+    return sum(lines * samples for lines, samples in line_counts(pupil))
 
 
-def line_counts(reach: Reach) -> tuple[Counts, Counts]:
-    """Return the counts of rows and of columns."""
-    return _counts(reach.in_row, reach.x), _counts(reach.in_column, reach.y)
+def line_counts(pupil: FrequencyPupil) -> tuple[Counts, Counts]:
+    """Return the counts of rows and of columns. Raises SamplingError where they are too many."""
+    reach, width, more = reach_of(pupil), 1 - pupil.mask.obscuration, slope_waves(pupil)
+    if pupil.plain:
+        return _counts(PLAIN, reach.in_row, reach.x), _counts(PLAIN, reach.in_column, reach.y)
+    edged = replace(
+        EDGED,
+        lines=max(EDGED.lines, LINES_OF_RING / width**NARROW),
+        samples=max(EDGED.samples, SAMPLES_PER_WIDTH / width),
+    )
+    rows = _counts(edged, reach.in_row + more, reach.x + more)
+    return rows, _counts(edged, reach.in_column + more, reach.y + more)
 
 
-def _counts(across: float, along: float) -> Counts:
+def _counts(rule: CountRule, across: float, along: float) -> Counts:
     """Return the counts for rays that land so many waves per pupil radius apart, on a line and along it."""
-    lines = even_count(FEWEST_LINES + LINES_PER_WAVE * across + LINES_PER_END * along)
-    samples = even_count(FEWEST_SAMPLES + SAMPLES_PER_WAVE * along)
+    lines = even_count(rule.lines + rule.lines_per_wave * across + rule.lines_per_end * along)
+    samples = even_count(rule.samples + SAMPLES_PER_WAVE * along)
     if lines * samples > MOST_SAMPLES:
         raise SamplingError(
             "a blur of {waves:.0f} waves per pupil radius needs {lines} × {samples} pupil samples; bring the sensor "
@@ -158,91 +183,6 @@ def _counts(across: float, along: float) -> Counts:
     return lines, samples
 
 
-def column_sum(pupil: FrequencyPupil, counts: Counts, cancelled: Stop = never) -> Sums:
-    """Return the sums over columns of their autocorrelations about the centroid at the lags 0 … counts[1].
-
-    Up to a factor: of a symmetric pupil over half of the columns, those at Gauss–Chebyshev points with fx > 0.
-    """
-    from scipy import fft
-
-    columns, samples = counts
-    lines = columns // len(pupil.domain.images)
-    angle, step, size = (np.arange(lines) + 0.5) * (pi / columns), 2 / samples, samples + 4
-    columns_x, place = np.cos(angle), np.arange(size)
-    y = (place - (size - 1) / 2) * step
-    low, high = pupil.columns(columns_x)
-    (top, at_top), (under, at_bottom) = end_weights((high - y[0]) / step), end_weights((y[-1] - low) / step)
-    bottom = size - 1 - under
-    lines_of = _Lines(pupil, columns_x, y, np.sin(angle))
-    length = fft.next_fast_len(2 * size)
-    total = np.zeros((2, length), complex)
-    for some, upper in _blocks(lines, size, length, cancelled):
-        inside = (place <= top[some, None]) & (place >= bottom[some, None])
-        lines_of.pack(some, inside, upper[:, :size])
-        upper[:, size:] = 0
-        lower = upper.copy()
-        _weigh(upper, top[some] - ENDS, at_top[:, some])
-        _weigh(lower, bottom[some] + ENDS, at_bottom[:, some])
-        upper, lower = fft.fft(upper, overwrite_x=True), fft.fft(lower, overwrite_x=True)
-        _add_power(total, upper, lower, some.stop - some.start)
-    own, perfect = fft.ifft(total)[:, : samples + 1]
-    return own, perfect.real
-
-
-class _Lines:
-    """The lines of a pupil at even places, complex64: errors of 1e-7 are far below the rule's.
-
-    Two lines of the modulus are packed as one, the real and the imaginary part: (a + ib)·(a′ + ib′)* has the real part
-    aa′ + bb′, which is their sum.
-    """
-
-    def __init__(self, pupil: FrequencyPupil, lines: np.ndarray, places: np.ndarray, share: np.ndarray):
-        phase, density = pupil.phase.T.copy(), pupil.density.T
-        phase[0, 1] += pupil.centroid_um * pupil.half_y  # about the centroid
-        across, along = (chebvander(at, max(len(phase), len(density)) - 1) for at in (lines, places))
-        self._across, self._phase = across[:, : len(phase)], phase @ along[:, : len(phase)].T
-        # In double precision: coefficients of a pupil that fills its box in part reach 1e10 and cancel.
-        self._weighted = across[:, : len(density)] * np.sqrt(share)[:, None]
-        self._density = density @ along[:, : len(density)].T
-
-    def pack(self, some: slice, inside: np.ndarray, packed: np.ndarray) -> None:
-        """Write lines, and below them half as many with two lines' moduli each; nothing where not ``inside``."""
-        modulus = np.abs(self._weighted[some] @ self._density).astype(np.float32)
-        modulus *= inside
-        own = cosine_sine(self._across[some] @ self._phase, np.float32)
-        own *= modulus
-        count, pairs = len(modulus), len(modulus) // 2
-        packed.real[:count], packed.imag[:count] = own
-        packed.real[count:], packed.imag[count:] = modulus[:pairs], modulus[pairs:]
-
-
-def _weigh(packed: np.ndarray, ends: np.ndarray, weight: np.ndarray) -> None:
-    """Multiply the samples at the ends, (END, lines), of packed lines by their weights."""
-    count, pairs = weight.shape[1], np.arange(weight.shape[1] // 2)
-    packed[np.arange(count), ends] *= weight
-    packed.real[count + pairs, ends[:, : pairs.size]] *= weight[:, : pairs.size]
-    packed.imag[count + pairs, ends[:, pairs.size :]] *= weight[:, pairs.size :]
-
-
-def _add_power(total: np.ndarray, spectrum: np.ndarray, other: np.ndarray, count: int) -> None:
-    """Add Σ spectrum·other* of the first ``count`` lines and of the packed ones; ``other`` is overwritten."""
-    np.conjugate(other, out=other)
-    other *= spectrum
-    total[0] += other[:count].sum(0, dtype=complex)
-    total[1] += other[count:].sum(0, dtype=complex)
-
-
-def _blocks(lines: int, samples: int, length: int, cancelled: Stop) -> Iterator[tuple[slice, np.ndarray]]:
-    """Yield an even number of lines at a time, and room for their spectra and for those of their moduli."""
-    size = max(2, AT_ONCE // samples // 2 * 2)
-    room = np.empty((size + size // 2, length), np.complex64)
-    for start in range(0, lines, size):
-        if cancelled():
-            raise Cancelled("the transfer function was stopped")
-        stop = min(start + size, lines)
-        yield slice(start, stop), room[: 3 * (stop - start) // 2]
-
-
 @lru_cache(maxsize=64)
 def _calibration(counts: Counts) -> np.ndarray:
     """Return what the sums over a uniform disc lack of the closed form, at every lag.
@@ -250,7 +190,8 @@ def _calibration(counts: Counts) -> np.ndarray:
     The lines that a lag leaves no longer than nothing end a sum too abruptly, by 1e-4 where lines are few, and by as
     much for any pupil near an ellipse. The factor takes that away, to 1e-6 for such a pupil.
     """
-    found = column_sum(uniform_disc(), counts)[1]
+    disc = uniform_disc()
+    found = line_sums(disc, columns_of(disc, counts, [], []))[1]
     found /= found[0]
     exact = circle_contrast(np.linspace(0, 1, counts[1] + 1))
     return write_protect(np.divide(exact, found, out=np.ones_like(found), where=found > SMALLEST))

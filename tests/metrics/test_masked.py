@@ -65,8 +65,8 @@ def test_the_transfer_function_is_the_transform_of_the_picture(mask):
     # The window lacks 1 − energy of the light, spread over all frequencies.
     for mine, line in zip((found.sagittal, found.tangential), lines, strict=True):
         assert mine == pytest.approx(line * psf.energy, abs=2 * (1 - psf.energy))
-    assert (found.sagittal <= found.perfect_sagittal + 1e-12).all()
-    assert (found.tangential <= found.perfect_tangential + 1e-12).all()
+    assert (found.sagittal <= found.perfect_sagittal + 2e-7).all()  # the rounding of float32
+    assert (found.tangential <= found.perfect_tangential + 2e-7).all()
     energy = energy_in(parts, "seidel", [10.0])
     away = np.hypot(psf.x_um, psf.y_um[:, None] - energy.centroid_um)
     assert energy.fraction[0] == pytest.approx(psf.energy * psf.values[away <= 10.0].sum(), abs=0.01)

@@ -9,12 +9,12 @@ from p2sf.errors import Cancelled, GeometryError, SamplingError
 from p2sf.lens.lens import with_aim, with_f_number
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens, shipped_lenses
-from p2sf.metrics import line_ends, measures, transfer
+from p2sf.metrics import measures
 from p2sf.metrics.frequency_pupil import pupil_of_coefficients, pupil_of_fit, pupil_of_rays
-from p2sf.metrics.line_ends import end_weights
+from p2sf.metrics.line_sums import END, end_weights, line_sums
 from p2sf.metrics.measures import PupilPart, mtf_of, spread_of
 from p2sf.metrics.perfect import diffraction_mtf
-from p2sf.metrics.transfer import OtfSlice, otf_slices
+from p2sf.metrics.transfer import OtfSlice, columns_of, otf_slices, slice_along_y
 from p2sf.psf.huygens import huygens_psf
 from p2sf.pupil.fit import fit
 from tests.support.overlap import overlap
@@ -104,7 +104,7 @@ def test_the_bound_holds_for_sums_far_too_coarse(lines):
     """30 waves of coma by some lines of 40 samples: no figure is right, and none is above the bound."""
     pupil = pupil_of_coefficients(waves(w31=10.0, w22=8.0, wd=2.0))
     for one in (pupil, pupil.transposed):
-        own, perfect = transfer.column_sum(one, (lines, 40))
+        own, perfect = line_sums(one, columns_of(one, (lines, 40), [], []))
         assert (np.abs(own) <= perfect + 1e-6 * perfect[0]).all()
 
 
@@ -113,16 +113,15 @@ def test_the_perfect_curve_hardly_depends_on_the_sampling():
     pupil = pupil_of_rays(find_lens("reverse_telephoto"), Source(field_deg=30)).without_phase()
     nu = np.linspace(0, 1, 301)
     for one in (pupil, pupil.transposed):
-        few, many = (
-            transfer._slice(one, counts, True).at(nu * 2 * one.half_y)[1] for counts in ((48, 128), (500, 1000))
-        )
-        assert np.abs(few - many).max() < 1e-4
+        few, many = (slice_along_y(one, columns_of(one, counts, [], []), True) for counts in ((48, 128), (500, 1000)))
+        differ = np.abs(few.at(nu * few.cut_off)[1] - many.at(nu * few.cut_off)[1])
+        assert differ.max() < 1e-4
 
 
 def test_an_end_between_two_samples_is_integrated_exactly():
     ends = np.array([9.5, 9.77, 10.0, 10.31, 10.499])
     last, weight = end_weights(ends)
-    for power in range(line_ends.END):
+    for power in range(END):
         for end, at, own in zip(ends, last, weight.T, strict=True):
             places = np.arange(at, -400.0, -1)
             factor = np.ones(places.size)

@@ -73,7 +73,7 @@ def measured_parts(request: MeasureRequest) -> "tuple[PupilPart, ...]":
 
 
 def mtf_is_live(live: Live, request: MeasureRequest) -> bool:
-    """Return whether the transfer function is computed within a frame; behind a mask it takes some 40 ms."""
+    """Return whether the transfer function is computed within a frame; behind a mask it takes some 15 ms."""
     from p2sf.metrics.transfer import otf_samples
 
     if takes_long(live) or not request.lens.mask.clear:

@@ -1,11 +1,11 @@
-"""The lines of a pupil behind a mask, each open in several intervals (handbook 6.3).
+"""A mask over spatial frequency: its edges, curves over the stop, and the slope of its phase (handbook 6.3)."""
 
-The edges of the mask, curves over the stop, are mapped to spatial frequency, where those of the pupil itself are known.
-"""
+from math import hypot
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebder, chebvander
 
+from p2sf.disc.mask import mask_slopes
 from p2sf.errors import GeometryError
 from p2sf.metrics.frequency_pupil import UNFOLLOWED, FrequencyPupil
 
@@ -18,6 +18,14 @@ def box_edges(pupil: FrequencyPupil) -> tuple[list[np.ndarray], list[np.ndarray]
     """Return the closed curves in the box, (2, points), whose insides are open, and those whose insides are dark."""
     inner, dark = pupil.edges.behind(pupil.mask)
     return [pupil.edge, *(to_box(pupil, *edge) for edge in inner)], [to_box(pupil, *edge) for edge in dark]
+
+
+def slope_waves(pupil: FrequencyPupil) -> float:
+    """Return how far the phase of the mask sends light at most, as waves over the pupil's radius."""
+    if not pupil.mask.phased:
+        return 0.0
+    slopes = mask_slopes(pupil.mask)
+    return hypot(slopes.path_radial_um, slopes.path_angular_um) / abs(pupil.wavelength_um)
 
 
 def to_box(pupil: FrequencyPupil, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
@@ -53,16 +61,3 @@ def _with_slopes(table: np.ndarray, x: np.ndarray, y: np.ndarray) -> tuple[np.nd
         np.einsum("na,na->n", rows @ derivative.T, across[:, :-1]),
         np.einsum("na,na->n", along[:, :-1] @ (derivative @ table), across),
     )
-
-
-def light_on_grid(
-    pupil: FrequencyPupil, x: np.ndarray, y: np.ndarray, wanted: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return modulus and phase in waves, (y, x), behind a mask without its edges; the modulus 0 if not ``wanted``."""
-    mask, (phase, density) = pupil.mask, pupil.on_grid(x, y)
-    if mask.shaded or mask.phased:
-        xi, eta = (wanted * values for values in pupil.stop_on_grid(x, y))
-        density = density * mask.amplitude(xi, eta)
-        if mask.phased:
-            phase = phase + mask.path_um(xi, eta) / pupil.wavelength_um
-    return np.where(wanted, np.abs(density), 0.0), phase
