@@ -46,9 +46,9 @@ class Lines:
 def line_sums(pupil: FrequencyPupil, lines: Lines, cancelled: Stop = never) -> tuple[np.ndarray, np.ndarray]:
     """Return the sums over columns of their autocorrelations about the centroid at the lags 0 … samples, complex.
 
-    Up to a factor; and those of the modulus, real. In single precision: its errors of 1e-7 are far below the rule's. Two lines of the modulus are
-    packed as one, the real and the imaginary part: (a + ib)·(a′ + ib′)* has the real part aa′ + bb′, which is their
-    sum. ``cancelled`` is polled between blocks of lines and ends the work with `Cancelled`.
+    Up to a factor; and those of the modulus, real. In single precision: its errors of 1e-7 are far below the rule's.
+    Two lines of the modulus are packed as one, the real and the imaginary part: (a + ib)·(a′ + ib′)* has the real part
+    aa′ + bb′, which is their sum. ``cancelled`` is polled between blocks of lines and ends the work with `Cancelled`.
     """
     step, size = 2 / lines.samples, lines.samples + 2 * MARGIN
     along = (np.arange(size) - (size - 1) / 2) * step

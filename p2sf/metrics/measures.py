@@ -298,7 +298,7 @@ def _radius_of(parts: Parts, found: Found, radius: np.ndarray, fraction: np.ndar
 @one_blas_thread
 def spread_of(parts: Parts, method: str, position_um: ArrayLike | None = None) -> LineSpread:
     """Return the images of a line and of an edge, by default at POINTS even positions about the centroid."""
-    from p2sf.metrics.transfer import edge_spread, line_spread, otf_slices
+    from p2sf.metrics.transfer import otf_slices, spreads
 
     slices = [otf_slices(part.pupil) for part in parts]
     most = 1 / (2 * min(one.step for both in slices for one in both))
@@ -313,7 +313,7 @@ def spread_of(parts: Parts, method: str, position_um: ArrayLike | None = None) -
         step = min(one.step for one in own)
         frequency = step * np.arange(round(max(one.cut_off for one in own) / step) + 1)
         values, perfect = _transfer(parts, own, frequency)
-        found.append((line_spread(values, step, position), edge_spread(values, perfect, step, position)))
+        found.append(spreads(values, perfect, step, position))
     (line_x, edge_x), (line_y, edge_y) = found
     return LineSpread(position, line_x, line_y, edge_x, edge_y, centroid_of(parts), method, centroid_x_of(parts))
 

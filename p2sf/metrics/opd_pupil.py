@@ -21,7 +21,7 @@ from p2sf.figures.hankel import HankelEnergy, hankel_energy
 from p2sf.figures.measures import PARTS, Energy, LineSpread, Mtf
 from p2sf.metrics.line_sums import LagSums
 from p2sf.metrics.perfect import circle_contrast
-from p2sf.metrics.transfer import OtfSlice, edge_spread, line_spread
+from p2sf.metrics.transfer import OtfSlice, spreads
 from p2sf.parameters import check_positive
 from p2sf.psf.from_opd import centres, psf_of_opd, pupil_of_cells
 from p2sf.psf.result import Psf
@@ -140,8 +140,7 @@ class Pupil:
         given = np.linspace(-most, most, POINTS) if position_um is None else number_list("position_um", position_um)
         self._check_reach("position_um", given, most)
         (line_x, edge_x), (line_y, edge_y) = (
-            (line_spread(one.values, one.step, given), edge_spread(one.values, one.perfect, one.step, given))
-            for one in (self._along_x, self._along_y)
+            spreads(one.values, one.perfect, one.step, given) for one in (self._along_x, self._along_y)
         )
         return LineSpread(given, line_x, line_y, edge_x, edge_y, self._along_y_centroid, METHOD, self._along_x_centroid)
 

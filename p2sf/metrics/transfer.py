@@ -16,6 +16,7 @@ import numpy as np
 
 from p2sf.conventions import write_protect
 from p2sf.disc.open_part import open_intervals, places_between
+from p2sf.disc.phasors import phasor_powers
 from p2sf.disc.quadrature import even_count
 from p2sf.errors import SamplingError
 from p2sf.metrics.frequency_pupil import FrequencyPupil, reach_of, uniform_disc
@@ -120,33 +121,22 @@ def columns_of(pupil: FrequencyPupil, counts: Counts, light: Curves, dark: Curve
     return Lines(samples, places, np.sin(angle), low[None], high[None])
 
 
-def line_spread(transfer: np.ndarray, step: float, position_um: np.ndarray) -> np.ndarray:
-    """Return the image of a line, per µm, at positions about the centre: ∫OTF·exp(2πiνx)dν over all frequencies."""
-    wave = _waves(transfer, step, position_um).real
-    wave[:, 0] /= 2  # the trapezoid; the other end is 0
-    spread: np.ndarray = 2 * step * wave.sum(1)
-    return spread
+def spreads(
+    transfer: np.ndarray, perfect: np.ndarray, step: float, position_um: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the images of a line, per µm, and of an edge that is dark below 0, at positions about the centre.
 
-
-def edge_spread(transfer: np.ndarray, perfect: np.ndarray, step: float, position_um: np.ndarray) -> np.ndarray:
-    """Return the image of an edge that is dark below 0: ½ + (1/π)∫Im(OTF·exp(2πiνx))/ν dν over ν > 0, rising to 1.
-
-    The integrand begins at 2πx and falls off with the transfer function, whose slope at 0 corrects the trapezoid
+    They are ∫OTF·exp(2πiνx)dν over all frequencies, and ½ + (1/π)∫Im(OTF·exp(2πiνx))/ν dν over ν > 0, rising to 1. The
+    latter's integrand begins at 2πx and falls off with the transfer function, whose slope at 0 corrects the trapezoid
     (Euler–Maclaurin). That slope is due to the edge of the pupil alone: ``perfect``, the transfer function without
     phase, has it over a whole step, where a wide blur already bends the other.
     """
-    frequency = step * np.arange(1, transfer.size)
-    wave = _waves(transfer[1:], step, position_um, 1).imag / frequency
-    start = 2 * pi * position_um
-    fall = start * (1 - perfect[1]) / step
-    spread: np.ndarray = 0.5 + (step * (start / 2 + wave.sum(1)) - step**2 / 12 * fall) / pi
-    return spread
-
-
-def _waves(transfer: np.ndarray, step: float, position_um: np.ndarray, first: int = 0) -> np.ndarray:
-    cycles = np.outer(position_um, step * np.arange(first, first + transfer.size))
-    wave: np.ndarray = transfer * np.exp(2j * pi * cycles)
-    return wave
+    waves = phasor_powers(np.exp(2j * pi * step * position_um), transfer.size)
+    line: np.ndarray = 2 * step * ((transfer @ waves).real - transfer[0].real / 2)  # the other end is 0
+    slope, start = (1 - perfect[1]) / step, 2 * pi * position_um
+    bright = (transfer[1:] / np.arange(1, transfer.size) @ waves[1:]).imag + step * start / 2
+    edge: np.ndarray = 0.5 + (bright - step**2 / 12 * start * slope) / pi
+    return line, edge
 
 
 def otf_samples(pupil: FrequencyPupil) -> int:
