@@ -131,6 +131,7 @@ class Chart(QWidget):
         self.left_axis = self.left_name = True
         self._labels, self.round, self.framed = (tr(bottom), tr(left)), aspect, framed
         self.x_axis, self.y_axis = AxisView(), AxisView()
+        self._scale_held: tuple[str, float | None] = "", None
         self.samples: Samples | None = None
         self.bar: Lockable | None = None  # of the image's colours
         self.ground: int | None = None  # 0xffRRGGBB beyond the image
@@ -179,6 +180,14 @@ class Chart(QWidget):
         """Show a square about ``middle`` whole, to ``half`` on either side."""
         x, y = middle
         self.set_range((x - half, x + half), (y - half, y + half))
+
+    def hold(self, axes: str, end: float | None) -> None:
+        """Lock these axes from −end to end, or open them for None; a lock turned by hand since stays as it is."""
+        if (axes, end) != self._scale_held:
+            self._scale_held = axes, end
+            locked = None if end is None else (-end, end)
+            x, y = (replace(axis, locked=locked, moved=None) for axis in (self.x_axis, self.y_axis))
+            self._see(x if "x" in axes else self.x_axis, y if "y" in axes else self.y_axis)
 
     def share(self, x: Span | None, y: Span | None) -> None:
         """Show these ranges in place of the automatic ones, None for those."""

@@ -10,7 +10,7 @@ from p2sf.conventions import centred_axis
 SHARE = 0.9  # of the light of the picture, within the circle
 LEAST_AIRY = 1.5  # Airy radii that the circle has at least: 3 across
 FILLED = 0.78  # of half a frame, the circle's radius at most
-KEPT = 0.55, 0.85  # of half a frame, the circle's radius while a slider moves and the frame, and with it the axes, stay
+KEPT = 0.3, 0.9  # of half a frame, the circle's radius while a slider moves and the frame, and with it the axes, stay
 STEP = 1.15  # between the sizes of frames
 PARTS = 10  # of half a frame, to which its middle is rounded, for the same reason
 BLOCKS = 128  # a side of what the circle is counted on

@@ -57,6 +57,8 @@ def _value(name: str, word: str) -> object:
         raise P2SFError('"{entry}" sets nothing; write entries such as field_deg 10, tab mtf', entry=f"{name} {word}")
     if name == "errors":
         return () if word == "none" else tuple(_error(one) for one in word.split("+"))
+    if name == "held_scales":
+        return () if word == "none" else tuple(_held(one) for one in word.split("+"))
     if isinstance(known[name], bool):
         return TRUTH.get(word, word)
     if isinstance(known[name], tuple):
@@ -68,6 +70,15 @@ def _value(name: str, word: str) -> object:
         return NUMBERS[word] if word in NUMBERS else (int if PLAIN.get(name) is int else float)(word)
     except ValueError:
         raise P2SFError('{name} is "{word}"; give a number', name=name, word=word) from None
+
+
+def _held(text: str) -> tuple[str, float]:
+    """Return a panel and the end of its axes."""
+    try:
+        panel, end = text.split()
+        return panel, float(end)  # the state checks both
+    except ValueError:
+        raise P2SFError('"{text}" is not a scale to hold; write for example psf 30', text=text) from None
 
 
 def _error(text: str) -> BuildError:

@@ -147,8 +147,9 @@ class PsfPanel:
             turn = np.linspace(0, 2 * np.pi, 73)
             self.airy.set_data(self._airy * np.cos(turn), self._airy * np.sin(turn))
         self.map.chart.name_axes("x, µm", Y_LABELS[side or 1])
-        shown = frame.half_um if side else np.nan
-        self.arrow.set_data(frame.x_um + shown * ARROW[0], frame.y_um + shown * side * ARROW[1])
+        (left, right), (low, high) = self.map.chart.x_axis.home, self.map.chart.y_axis.home  # perhaps locked
+        shown = (right - left) / 2 if side else np.nan
+        self.arrow.set_data((left + right) / 2 + shown * ARROW[0], (low + high) / 2 + shown * side * ARROW[1])
 
     def show_badge(self, live: Live, r_squared: float | None, reference: str = REFERENCE) -> None:
         """Show method, times and R² against the ``reference``: measured where it is known, else predicted.

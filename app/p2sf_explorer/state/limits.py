@@ -95,6 +95,16 @@ LISTED = {
     "curves_fields_deg": "field_deg",
     "curves_frequencies_per_mm": "frequency_per_mm",
 }
+HOLDABLE = {
+    "psf": ("xy", (1e-3, 1e6)),
+    "spot": ("xy", (1e-3, 1e6)),
+    "ray_fan": ("y", (1e-3, 1e6)),
+    "opd_fan": ("y", (1e-4, 1e6)),
+}
+"""Panels whose scale a state can hold: the axes that then run from −end to end, and the limits of the end.
+
+The end is in the axes' unit, µm or waves.
+"""
 MOST_WAVES = 1000.0
 MASK = tuple(each.name for each in MASK_PARAMETERS if each.typed)
 """Entries named as the fields of `p2sf.disc.mask.PupilMask`; None: as the lens file has it."""

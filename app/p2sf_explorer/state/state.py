@@ -22,6 +22,7 @@ from p2sf.tolerance.errors_of_build import UNITS, Grade
 from p2sf_explorer.state.build_errors import BuildErrors, Compensator, check_errors
 from p2sf_explorer.state.limits import (
     CHOICES,
+    HOLDABLE,
     KINDS,
     LINKABLE,
     LISTED,
@@ -208,6 +209,19 @@ CAPTION = (
 )  # possible parts of the line above the stage
 
 
+def _check_held(scales: object) -> None:
+    """Raise P2SFError unless these are pairs of a panel, each once, and the end of its axes (> 0)."""
+    pairs = scales if isinstance(scales, tuple) else (scales,)
+    if not all(isinstance(pair, tuple) and len(pair) == 2 and pair[0] in HOLDABLE for pair in pairs):
+        raise P2SFError(
+            "held_scales is {value}; give pairs such as psf 30, of {panels}", value=_quote(scales), panels=(*HOLDABLE,)
+        )
+    if len({name for name, _ in pairs}) < len(pairs):
+        raise P2SFError("held_scales is {value}; name each panel once", value=_quote(scales))
+    for name, end in pairs:
+        _check_number(end, name, HOLDABLE[name][1], Message("end of the axes"), "")
+
+
 @dataclass(frozen=True)
 class Display:
     """How results are shown.
@@ -227,6 +241,7 @@ class Display:
     what the sensor follows while the lens is edited: "paraxial" or "rms" focus, or "off". ``exaggerated``: the factor
     by which the drawings enlarge the tilts and decentres of ``errors``; ``show_field_x``: the field along x has a
     slider also where the lens is symmetric. ``caption`` names the parts of the line above the stage, of `CAPTION`.
+    ``held_scales``: panels of `HOLDABLE` with the end of their axes, which then do not follow the data.
     """
 
     psf_scale: str = "sqrt"
@@ -257,9 +272,11 @@ class Display:
     exaggerated: int = 1
     show_field_x: bool = False
     caption: tuple[str, ...] = CAPTION
+    held_scales: tuple[tuple[str, float], ...] = ()
 
     def __post_init__(self) -> None:
         _check_entries(self)
+        _check_held(self.held_scales)
         for name in ("windows", "rail", "caption"):
             found = getattr(self, name)
             if not isinstance(found, list | tuple) or not all(isinstance(panel, str) for panel in found):

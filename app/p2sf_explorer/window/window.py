@@ -21,6 +21,7 @@ from PySide6.QtWidgets import QApplication, QHBoxLayout, QLineEdit, QMainWindow,
 from p2sf.errors import P2SFError
 from p2sf.lens.lens import message_if_misaligned
 from p2sf.messages import Message
+from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.theme import SPACE, Tokens, palette, screen_scale, stylesheet, tokens
 from p2sf_explorer.compare.compare_bar import CompareBar
 from p2sf_explorer.compare.comparison import Answers, answers
@@ -38,7 +39,7 @@ from p2sf_explorer.panels.coefficients.panel import CoefficientsPanel
 from p2sf_explorer.panels.psf import PsfPanel
 from p2sf_explorer.playback.filming import Filming
 from p2sf_explorer.playback.play_bar import PlayBar
-from p2sf_explorer.state.limits import ADDED
+from p2sf_explorer.state.limits import ADDED, HOLDABLE
 from p2sf_explorer.state.link import is_link
 from p2sf_explorer.state.panels import PANELS, REGISTRY, view_of
 from p2sf_explorer.state.state import Display, State
@@ -620,6 +621,9 @@ def paint(panel: Panel, key: str, live: Live) -> None:
     if (view := live.views.get(key)) and view.why:
         cover(panel, view.why)
         return
+    if key in HOLDABLE:
+        for chart in panel.widget.findChildren(Chart):
+            chart.hold(HOLDABLE[key][0], dict(live.state.display.held_scales).get(key))
     panel.show(live)
     panel.widget.show_overlay("")
     why = live.difference.why.get(key) if live.difference else None

@@ -306,6 +306,7 @@
 <message><source>"{name}:" is not an entry of a step here; give {names}</source><translation>"{name}:" ist hier kein Eintrag eines Schritts; {names} angeben</translation></message>
 <message><source>"{text}" in a claim is not a number; write one such as 0.25 or 1e-3</source><translation>"{text}" in einer Behauptung ist keine Zahl; eine wie 0.25 oder 1e-3 schreiben</translation></message>
 <message><source>"{text}" is not a claim; write one such as {example}</source><translation>"{text}" ist keine Behauptung; eine schreiben wie {example}</translation></message>
+<message><source>"{text}" is not a scale to hold; write for example psf 30</source><translation>"{text}" ist keine Skala zum Festhalten; etwa psf 30 schreiben</translation></message>
 <message><source>"{text}" is not an error of a build; write for example decentre_y 3-4 0.2</source><translation>"{text}" ist kein Fehler eines Exemplars; etwa decentre_y 3-4 0.2 schreiben</translation></message>
 <message><source>"{text}": "is" needs a tolerance such as ± 0.01, and "above" and "below" take none</source><translation>"{text}": "is" braucht eine Toleranz wie ± 0.01, "above" und "below" haben keine</translation></message>
 <message><source>% of peak</source><translation>% der Spitze</translation></message>
@@ -2262,6 +2263,9 @@
 <message><source>the wavefront has the shape {shape}; give a square array</source><translation>die Wellenfront hat die Form {shape}; eine quadratische Matrix angeben</translation></message>
 <message><source>the window of {width:.4g} µm holds {share:.3g} % of the light, and the PSF has unit sum within it; give more {pixels} or a larger {pixel}</source><translation>das Fenster von {width:.4g} µm enthält {share:.3g} % des Lichts, und die PSF hat darin die Summe 1; geben Sie mehr {pixels} oder ein größeres {pixel} an</translation></message>
 <message><source>the {axis} nodes must be one or more numbers in ascending order; sort them</source><translation>die Knoten für {axis} müssen eine oder mehrere Zahlen in steigender Folge sein; ordnen</translation></message>
+<message><source>end of the axes</source><translation>Ende der Achsen</translation></message>
+<message><source>held_scales is {value}; give pairs such as psf 30, of {panels}</source><translation>held_scales ist {value}; Paare wie psf 30 angeben, von {panels}</translation></message>
+<message><source>held_scales is {value}; name each panel once</source><translation>held_scales ist {value}; jede Ansicht einmal nennen</translation></message>
 <message><source>the {quantity} "{text}" has the unit "{unit}"; {remedy}</source><translation>"{text}" hat die Einheit "{unit}" bei: {quantity}; {remedy}</translation></message>
 <message><source>the {quantity} "{text}" is not a number; write one such as 12.5</source><translation>{quantity}: "{text}" ist keine Zahl; eine wie 12,5 schreiben</translation></message>
 <message><source>their sum</source><translation>ihre Summe</translation></message>

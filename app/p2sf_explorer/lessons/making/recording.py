@@ -82,6 +82,8 @@ def _written(name: str, old: Any, new: Any) -> list[str]:
         return [f"{ADDED}{term} {value:.10g}" for term, was, value in pairs if was != value]
     if name == "errors":
         return [f"errors {'+'.join(f'{kind} {a}-{b} {amount:.10g}' for kind, a, b, amount in new) or 'none'}"]
+    if name == "held_scales":
+        return [f"{name} {'+'.join(f'{panel} {end:.10g}' for panel, end in new) or 'none'}"]
     if isinstance(new, tuple):
         return [f"{name} {'+'.join(_value(item) for item in new) or 'none'}"]
     if name == "photo_depths" and new not in (FLAT, SLOPE, STEPS):
