@@ -28,7 +28,6 @@ COARSE_ERROR = {np.dtype(np.float64): 1e-9, np.dtype(np.float32): 5e-5}
 MANY_SAMPLES = 2**15  # beyond which that one is taken; in float64 a picture then errs by its square, 1e-18, in R²
 FEW_SAMPLES = 128 * 129  # up to which a plan, which takes as long as a sum, is kept
 SAMPLES_OF_NODE = 8  # of an even picture, from which on a sum over half of them takes less time
-FEW_NODES = 2**13  # which need not be sorted by place
 _here = local()  # ``plan`` keeps plans, which hold the nodes of one sum at a time, apart in each thread
 
 
@@ -89,7 +88,7 @@ def _nufft(amplitude: np.ndarray, kx: np.ndarray, ky: np.ndarray, x: np.ndarray,
     steps = [2 * np.pi * (axis[-1] - axis[0]) / max(1, axis.size - 1) for axis in (x, y)]
     middle = float(x[x.size // 2]), float(y[y.size // 2])  # position of Fourier mode 0
     modes = tuple(axis.size for axis in (y, x) if axis.size > 1)
-    transform = _plan(modes, kx.dtype, shape[-1] <= FEW_NODES)
+    transform = _plan(modes, kx.dtype)
     fields = np.empty((len(sets[0]), y.size, x.size), np.result_type(kx.dtype, np.complex64))
     for field, weight, across, up in zip(fields, *sets, strict=True):
         if any(middle):
@@ -101,16 +100,16 @@ def _nufft(amplitude: np.ndarray, kx: np.ndarray, ky: np.ndarray, x: np.ndarray,
     return fields.reshape(*shape[:-1], y.size, x.size)
 
 
-def _plan(modes: tuple[int, ...], dtype: np.dtype, few: bool) -> Any:
+def _plan(modes: tuple[int, ...], dtype: np.dtype) -> Any:
     """Return a finufft plan for these Fourier modes and nodes of this precision."""
     if prod(modes) > FEW_SAMPLES:
-        return _new_plan(modes, dtype, few)
+        return _new_plan(modes, dtype)
     if not hasattr(_here, "plan"):
         _here.plan = lru_cache(maxsize=8)(_new_plan)
-    return _here.plan(modes, dtype, few)
+    return _here.plan(modes, dtype)
 
 
-def _new_plan(modes: tuple[int, ...], dtype: np.dtype, few: bool) -> Any:
+def _new_plan(modes: tuple[int, ...], dtype: np.dtype) -> Any:
     import finufft
 
     exact = prod(modes) <= MANY_SAMPLES
@@ -122,7 +121,7 @@ def _new_plan(modes: tuple[int, ...], dtype: np.dtype, few: bool) -> Any:
         dtype=np.result_type(dtype, np.complex64).name,
         nthreads=1,
         upsampfac=2.0 if exact else 1.25,
-        spread_sort=0 if few else 1,
+        spread_sort=0,  # nodes of one ring or line are neighbours already
     )
 
 
