@@ -17,7 +17,6 @@ from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.sampled import by_coefficients
 
 if TYPE_CHECKING:
-    from p2sf.figures.measures import Energy
     from p2sf.metrics.measures import PupilPart
 
 LIVE_SAMPLES = 2**18  # of both slices of a transfer function: some 5 ms, and a blur of 64 waves per pupil radius
@@ -95,23 +94,3 @@ def takes_long(live: Live) -> bool:
     To find the pupil that a measure needs takes longer still: seconds, of a fast lens at full field.
     """
     return live.slow or live.psf.method == "geometric"
-
-
-def energy_at(found: "Energy", radius_um: np.ndarray) -> np.ndarray:
-    """Return the energy within any radii: between the tabulated ones, beyond them 1 − c/R, as of every hard edge."""
-    last, share = float(found.radius_um[-1]), float(found.fraction[-1])
-    inside = smooth(radius_um, found.radius_um, found.fraction)
-    return np.where(radius_um > last, 1 - (1 - share) * last / np.maximum(radius_um, last), inside)
-
-
-def smooth(at: np.ndarray, table: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Return a tabulated curve anywhere within its table: cubic Hermite pieces with slopes by central differences.
-
-    Straight lines between the tabulated energies would be wrong in the fourth digit.
-    """
-    left = np.clip(np.searchsorted(table, at) - 1, 0, len(table) - 2)
-    step, slopes = np.diff(table)[left], np.gradient(values, table)
-    t = np.clip((at - table[left]) / step, 0.0, 1.0)
-    rise = values[left + 1] - values[left]
-    bend = t * (1 - t) * ((1 - t) * (slopes[left] * step - rise) - t * (slopes[left + 1] * step - rise))
-    return values[left] + t * rise + bend

@@ -32,6 +32,15 @@ def test_four_fifths_of_a_perfect_lens_light_lie_inside_the_first_ring(window):
     assert np.interp(radius, *panel.within.data()) == pytest.approx(0.838, abs=2e-3)  # of all light, as of the window
 
 
+@pytest.mark.parametrize("method", ["seidel", "auto"])
+def test_close_to_the_centroid_the_energy_grows_with_the_area(method):
+    answer = live(change(FIRST, method=method, lens="tessar", f_number=8.0, field_deg=5.0))
+    found = profiles(answer).found
+    radius, energy = (line[found.position_um.size // 2 :] for line in (found.position_um, found.energy))
+    assert radius[0] == 0 and radius[4] < answer.airy_radius_um / 4, "light changes by a tenth over such distances"
+    assert energy[2:5] / energy[1] == pytest.approx(radius[2:5] ** 2 / radius[1] ** 2, rel=0.1)
+
+
 @pytest.mark.parametrize(("method", "lens"), [("seidel", "double_gauss_28"), ("fitted", "double_gauss_28")])
 def test_fine_sections_go_through_the_samples_of_the_picture(method, lens):
     answer = live(change(FIRST, method=method, f_number=8.0, field_deg=7.0, lens=lens))

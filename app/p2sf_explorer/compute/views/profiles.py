@@ -19,7 +19,6 @@ from p2sf.pupil.seen_mask import mask_seen
 from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.measured import (
     MeasureRequest,
-    energy_at,
     energy_is_live,
     measure_request,
     measured_parts,
@@ -109,14 +108,13 @@ def with_fine_sections(curves: ProfileCurves, request: MeasureRequest) -> Profil
 def with_energy(curves: ProfileCurves, request: MeasureRequest) -> ProfileCurves:
     """Return the curves with the energy of a request; P2SFError where its pupil has none."""
     parts, outward = measured_parts(request), np.abs(curves.position_um)
-    found, perfect = energy_in(parts, ""), curves.perfect_energy
-    within = energy_at(found, outward)
+    found, perfect = energy_in(parts, "", outward, wings=True), curves.perfect_energy
     if not request.lens.mask.clear:
         alone = [replace(part, pupil=part.pupil.without_phase()) for part in parts]
-        perfect = energy_at(energy_in(alone, ""), outward)
+        perfect = energy_in(alone, "", outward, wings=True).fraction
     radii = found.radius_50_um, found.radius_80_um, found.rms_um
     said = Message("{method}; {note}", method=request.method, note=found.note) if found.note else request.method
-    return replace(curves, energy=within, perfect_energy=perfect, radii_um=radii, method=said, pending=None)
+    return replace(curves, energy=found.fraction, perfect_energy=perfect, radii_um=radii, method=said, pending=None)
 
 
 def answer(curves: ProfileCurves, stopped: Callable[[], bool], tell: Callable[[float, object], None]) -> ProfileCurves:
