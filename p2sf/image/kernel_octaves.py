@@ -21,7 +21,7 @@ from p2sf.pixel_kernels.pupil_stack import PupilStack
 from p2sf.pixel_kernels.pupil_table import PupilTable, chebyshev, pupil_table
 from p2sf.pixel_kernels.sensor_points import SensorMap
 from p2sf.scene.planning.adaptive_table import PupilAt
-from p2sf.scene.planning.pricing import computed_counts, mirrored
+from p2sf.scene.planning.cost import computed_counts, mirrored
 from p2sf.scene.planning.study import Study, pad_kernel
 from p2sf.scene.scene import Scene
 from p2sf.scene.sensor import Sensor

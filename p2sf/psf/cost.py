@@ -1,17 +1,15 @@
-"""Estimated cost of the sum of a PSF: its nodes, and about its seconds on one core."""
+"""The cost of a PSF that is asked for: its nodes, and by `pupil.cost` its seconds."""
 
 from math import inf, prod
 
 from p2sf.disc.mask import PupilMask
 from p2sf.paraxial.seidel import Coefficients
-from p2sf.psf.methods import Method, PsfRequest, method_of
+from p2sf.psf.methods import PsfRequest, method_of
 from p2sf.psf.seidel_stack import as_fit
 from p2sf.pupil.fit import FittedPencil
 from p2sf.pupil.plane_waves import counts_for, window_reach_um
 from p2sf.pupil.seen_mask import mask_seen
 from p2sf.pupil.smooth_pupil import all_reach
-
-SAMPLE_SECONDS = 1.5e-7  # of a sample of the picture, by a Fourier transform
 
 
 def fit_node_count(fitted: FittedPencil, window: tuple[int, float]) -> float:
@@ -44,11 +42,6 @@ def nodes_beyond(request: PsfRequest, fitted: FittedPencil | None) -> float:
     return nodes if nodes > most else 0.0
 
 
-def seconds(method: Method, nodes: float, samples: int) -> float:
-    """Return the estimated seconds of a sum: of its nodes, and of a Fourier transform of its samples."""
-    return method.node_seconds * nodes + SAMPLE_SECONDS * samples**2
-
-
 def predicted_seconds(request: PsfRequest, fitted: FittedPencil | None) -> float:
     """Return the estimated seconds of a settled sum; infinite if rims or lost rays make it unpredictable.
 
@@ -56,4 +49,6 @@ def predicted_seconds(request: PsfRequest, fitted: FittedPencil | None) -> float
     """
     method, nodes = method_of(request.method), node_count(request, fitted)
     rays_tell = nodes and not request.options.clip and all_reach(request.lens, request.source)
-    return seconds(method, nodes, request.window[0]) if method.nodes or method.whole or rays_tell else inf
+    if not (method.nodes or method.whole or rays_tell):
+        return inf
+    return method.seconds(nodes, request.window[0])

@@ -27,6 +27,7 @@ from p2sf.psf.peak import peak_of
 from p2sf.psf.picture import Window, psf_of_intensity, resolved
 from p2sf.psf.prediction import CAUTION, EDGE_ERROR, TRACED_ERROR
 from p2sf.psf.result import Psf
+from p2sf.pupil.cost import LAST_PASS, RAY_SECONDS
 from p2sf.pupil.fit import FittedPencil
 from p2sf.pupil.plane_waves import Counts, Waves, counts_for, disc_words, pupil_amplitude, window_reach_um
 from p2sf.pupil.seen_mask import with_slopes
@@ -51,7 +52,6 @@ STEP = 1e-4  # of the pupil's radius, for differences: errors of 1e-8, of aiming
 BLOCK = 8192  # rays traced at a time: few enough for a second-level cache and to check for cancellation every few ms
 GROWTH = 1.3
 MOST_NODES = 2**22
-NODE_SECONDS, LAST_PASS = 4e-6, 0.4  # of a ray on one core, and the share of all rays that are in the last pass
 OF_FIELD = 3.0  # times what is left of a field, of its intensity: twice that, and more where the pivots of QR are rough
 FRINGES_OF_SPHERES = 1.05  # finer than those of rays are beyond a focus; so near their end contrast is next to none
 MOST_FOR_PEAK = 2**17  # for the peak alone, which is otherwise sought only in the window
@@ -413,7 +413,7 @@ class Watch:
     ) -> None:
         self.progress, self.cancelled = progress, cancelled
         self.limits: dict[str, Any] = {"watch": self.look, "most_seconds": most_seconds, "allowed": allowed}
-        self.most = int(min(MOST_NODES, LAST_PASS * most_seconds / NODE_SECONDS))
+        self.most = int(min(MOST_NODES, LAST_PASS * most_seconds / RAY_SECONDS))
         self.finished, self.expected = 0, 0
 
     def expect(self, nodes: int) -> None:

@@ -24,8 +24,8 @@ from p2sf.psf.compare import flatness_of
 from p2sf.psf.fitted import MOST_NODES as MOST_FITTED
 from p2sf.psf.fitted import NodesOf, psf_of_fit
 from p2sf.psf.gaussian_fit import gaussian_psf
-from p2sf.psf.huygens import LAST_PASS, RayPupil, Watch, blur_um2, nodes_from, sum_rays
 from p2sf.psf.huygens import MOST_NODES as MOST_RAYS
+from p2sf.psf.huygens import RayPupil, Watch, blur_um2, nodes_from, sum_rays
 from p2sf.psf.prediction import EDGE_ERROR, SAFETY, TRACED_ERROR, USELESS, predicted_error, seidel_sigma
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import WINDOW_AIRY_RADII, check_focus, check_image, check_quality, seidel_psf, suitable_pixel_um
@@ -41,6 +41,7 @@ from p2sf.psf.spherical import (
 )
 from p2sf.psf.traced import EDGE_TOLERANCE, traced_psf
 from p2sf.psf.traced import MOST_NODES as MOST_TRACED
+from p2sf.pupil.cost import COLUMN_SECONDS, LAST_PASS, RAY_SECONDS, TABLE_SECONDS, sum_seconds
 from p2sf.pupil.fit import (
     LEVELS,
     RESIDUAL_WAVES,
@@ -55,7 +56,6 @@ from p2sf.pupil.fit import (
 )
 from p2sf.pupil.seen_mask import mask_seen
 from p2sf.pupil.smooth_pupil import all_reach
-from p2sf.pupil.spherical_waves import TERM_SECONDS
 from p2sf.pupil.vignetting import pupil_nodes
 from p2sf.raytrace.exit_sphere import exit_sphere
 from p2sf.raytrace.field_geometry import cone
@@ -73,7 +73,6 @@ PLANE_NODES = 2.0  # times those of spherical waves, more than plane waves of th
 COMPARED = 2.0  # times their comparison, which holds for 99.7 % of states (python -m tests.long.spherical_prediction)
 ROOM = 1.05  # times the flatness of a first picture, since a better one differs from it
 QUICK_LEVELS = LEVELS[:2]  # fitted to the same 64 rays
-TABLE_SECONDS, RAY_SECONDS = 4e-7, 4e-6  # of a node from tables of polynomials, and of a ray through a dozen surfaces
 
 
 @dataclass(frozen=True)
@@ -208,6 +207,10 @@ class Method:
     nodes: Callable[[PsfRequest], float] | None = None
     of_reference: Callable[[Psf], Psf] | None = None
 
+    def seconds(self, nodes: float, samples: int) -> float:
+        """Return the estimated seconds of a settled sum over nodes, for samples a side, on one core."""
+        return sum_seconds(self.node_seconds, nodes, samples)
+
 
 def residual_for(min_r2: float) -> float:
     """Return the RMS phase error in waves that keeps R² of a fit above ``min_r2``; at most RESIDUAL_WAVES."""
@@ -286,7 +289,7 @@ def _sphere_is_affordable(lens: Lens, source: Source, clip: bool, window: tuple[
     """Return whether a sum of spherical waves with one column takes AUTO_SECONDS at most; False without a sphere."""
     try:
         smooth = _smooth(lens, source, clip)
-        most = AUTO_SECONDS / (2 * TERM_SECONDS) if smooth else AUTO_SECONDS * LAST_PASS / RAY_SECONDS
+        most = AUTO_SECONDS / (2 * COLUMN_SECONDS) if smooth else AUTO_SECONDS * LAST_PASS / RAY_SECONDS
         half = half_window_um(lens, source) if window is None else window[0] * window[1] / 2
         reach = hypot(half, half)
         if nodes_from(lens, source, reach) > PLANE_NODES * most:  # spared the neighbouring fields that a sphere takes

@@ -21,6 +21,7 @@ from numpy.typing import DTypeLike
 
 from p2sf.conventions import UM_PER_MM, FloatOrArray
 from p2sf.disc.domain import WHOLE
+from p2sf.pupil.cost import COLUMN_SECONDS, PAIR_SECONDS
 from p2sf.pupil.plane_waves import Waves
 from p2sf.raytrace.exit_sphere import ExitSphere
 
@@ -30,7 +31,6 @@ FULL_RANK = 0.75  # of the places probed, from which on they do not tell the ran
 RANK_ERROR = {np.dtype(np.float64): 3e-6, np.dtype(np.float32): 1e-3}  # of the factor, relative
 SEED = 0
 PAIRS = 2**20  # of nodes and places, or of columns and places, at a time: some tens of megabytes
-TERM_SECONDS, PAIR_SECONDS = 4e-7, 6e-8  # of a node in a column's sum of plane waves, and of a wavelet at a place
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -144,7 +144,7 @@ class SphericalWaves(Waves):
         missed = np.append(np.abs(np.diag(upper)), 0.0) / max(abs(upper[0, 0]), np.finfo(float).tiny)
         rank = max(1, int((missed > max(self.allowed, RANK_ERROR[np.dtype(dtype)])).sum()))
         known = rank < FULL_RANK * places.size or places.size == x.size * y.size
-        a_column, pairs = TERM_SECONDS * self.fx.size, PAIR_SECONDS * self.fx.size * x.size * y.size
+        a_column, pairs = COLUMN_SECONDS * self.fx.size, PAIR_SECONDS * self.fx.size * x.size * y.size
         if pairs < min(a_column * rank, self.most_seconds) or (not known and pairs < self.most_seconds):
             return Skeleton(nodes, places, None)
         rank = max(1, min(rank, int(min(self.most_seconds / a_column, rank))))

@@ -1,6 +1,6 @@
 """What very many PSFs cost, measured from 10³ to 10⁶ and extrapolated to 10⁹: `python -m tests.benchmarks.scale`.
 
-First a PSF against its blur: the products of its sum as `database.cost` counts them, and the time of one in a batch.
+First a PSF against its blur: the products of its sum as `pupil.cost` counts them, and the time of one in a batch.
 Then stacks of 10³, 10⁴ … PSFs of one and the same space, the Double Gauss f/3 from 60 m to infinity, 0 to 14° and 420
 to 700 nm, 64² samples as far apart as the finest PSF needs, on ever more nodes; beside each the bytes of the same space
 as coefficients. A stack that would take longer than `--most-s` is estimated from chunks drawn at random, which are
@@ -21,7 +21,6 @@ import numpy as np
 
 from p2sf.conventions import slope_from_degrees
 from p2sf.database.build import build_database
-from p2sf.database.cost import products
 from p2sf.database.files.npz import database_bytes
 from p2sf.database.files.place import size_bytes
 from p2sf.database.files.stack import Stack
@@ -33,6 +32,7 @@ from p2sf.figures.pixel_light import critical_pixel_um
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.seidel_stack import stack_of
+from p2sf.pupil.cost import separable_products
 from p2sf.spans import depth_nodes
 from p2sf.threads import one_blas_thread
 
@@ -72,7 +72,7 @@ def blur_rows() -> Iterator[tuple[float, int, float, float]]:
             stack_of(blurred, pixels, pitch, "settled", np.float32)
             rounds += 1
         seconds = (process_time() - start) / rounds / BATCH
-        yield radius, pixels, float(products(blurred, pixels, pitch)[0]), 1e3 * seconds
+        yield radius, pixels, float(separable_products(blurred, pixels, pitch)[0]), 1e3 * seconds
 
 
 def measured(nodes: tuple[int, int, int], folder: Path, most_s: float) -> Scale:

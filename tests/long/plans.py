@@ -45,8 +45,8 @@ from p2sf.pupil.plane_waves import counts_for, window_reach_um
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.ray_field import steepness
 from p2sf.scene.planning import lens_pupils
+from p2sf.scene.planning.cost import naive_recipe
 from p2sf.scene.planning.plan import SHARES, Plan, plan
-from p2sf.scene.planning.pricing import naive_recipe
 from p2sf.scene.planning.reference import LEAST_POINTS, PROBE
 from p2sf.scene.planning.study import distance
 from p2sf.scene.planning.verify import error_at, planned_kernel, verify

@@ -36,6 +36,7 @@ from p2sf.psf.methods import (
 )
 from p2sf.psf.pixel_integrals import render_integrated
 from p2sf.psf.prediction import CAUTION, predicted_error, seidel_sigma
+from p2sf.pupil.cost import SAMPLE_SECONDS
 from p2sf.pupil.fit import level_rays
 from p2sf.studies.tradeoff import _point_of_trade, draw, error, front, table, to_json, tradeoff
 from tests.long.method_choice import Trial, summary, trials
@@ -294,7 +295,7 @@ def test_a_method_with_a_grid_of_its_own_says_what_it_costs(monkeypatch):
     monkeypatch.setattr(methods, "METHODS", (*methods.METHODS, grid))
     asked = PsfRequest(lens, source, "own grid", (32, pixel), PsfOptions(clip=True))
     assert cost.node_count(asked, None) == 128.0**2 and cost.nodes_beyond(asked, None) == 0
-    assert cost.predicted_seconds(asked, None) == pytest.approx(128**2 * 1e-6 + cost.SAMPLE_SECONDS * 32**2)
+    assert cost.predicted_seconds(asked, None) == pytest.approx(128**2 * 1e-6 + SAMPLE_SECONDS * 32**2)
     assert cost.predicted_seconds(replace(asked, method="traced"), None) == inf
 
 

@@ -8,7 +8,7 @@ from p2sf.errors import P2SFError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
-from p2sf.psf.cost import node_count, predicted_seconds, seconds
+from p2sf.psf.cost import node_count, predicted_seconds
 from p2sf.psf.methods import AUTO_SECONDS, Choice, PsfOptions, PsfRequest, by_six, method_of, psf_of
 from p2sf.psf.result import Psf
 from p2sf.psf.spherical import plane_wave_error
@@ -110,7 +110,7 @@ def most_samples(request: PsfRequest, fitted: FittedPencil | None) -> int:
     nodes, samples = node_count(request, fitted), request.window[0]
     if not nodes:
         return FEW_SAMPLES
-    while samples > FEW_SAMPLES and seconds(method_of(request.method), nodes, samples) > SOME_SECONDS:
+    while samples > FEW_SAMPLES and method_of(request.method).seconds(nodes, samples) > SOME_SECONDS:
         samples //= 2
     return samples
 

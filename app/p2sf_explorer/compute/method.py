@@ -11,7 +11,7 @@ from p2sf.errors import GeometryError
 from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients, reason_against_coefficients
 from p2sf.paraxial.wavefront import steepest_slope
-from p2sf.psf.cost import coefficient_node_count, fit_node_count, nodes_beyond, seconds
+from p2sf.psf.cost import coefficient_node_count, fit_node_count, nodes_beyond
 from p2sf.psf.methods import FITTED, SEIDEL, TRACED, Choice, PsfRequest, by_six, choose, psf_of
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_focus, check_image
@@ -299,7 +299,7 @@ def steep_coefficients(task: Task, window: Window, mask: PupilMask) -> bool:
     c = task.setup.coefficients
     if float(steepest_slope(c)) + corner_waves(task, window) > STEEPEST_IN_ALL:
         return True
-    return not mask.clear and seconds(SEIDEL, coefficient_node_count(c, window, mask), window[0]) > QUICK_SECONDS
+    return not mask.clear and SEIDEL.seconds(coefficient_node_count(c, window, mask), window[0]) > QUICK_SECONDS
 
 
 def too_coarse(task: Task, window: Window) -> bool:
@@ -323,10 +323,10 @@ def quickly(task: Task, window: Window) -> bool:
     """
     if task.first_fit is None:
         return False
-    if seconds(FITTED, fit_node_count(task.first_fit, window), window[0]) >= QUICK_SECONDS or task.fitted is None:
+    if FITTED.seconds(fit_node_count(task.first_fit, window), window[0]) >= QUICK_SECONDS or task.fitted is None:
         return False
     if task.fitted.error_waves > FAR:
-        few = seconds(TRACED, fit_node_count(task.fitted, window), window[0]) < QUICK_SECONDS
+        few = TRACED.seconds(fit_node_count(task.fitted, window), window[0]) < QUICK_SECONDS
         return few and all_reach(task.setup.lens, task.setup.source)
     return True
 

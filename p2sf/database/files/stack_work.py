@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from p2sf.database.cost import products
 from p2sf.database.files.stack import Chunk, Stack
 from p2sf.database.render import fine_sampling, light_of
+from p2sf.pupil.cost import separable_products
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ COSTS_AT_ONCE = 1000  # chunks whose costs are computed together, which takes so
 class StackWork:
     """The missing chunks of a stack, the most expensive first, so that at the end no worker waits for a long one.
 
-    ``costs``: about how many products each takes that is not done (`database.cost`).
+    ``costs``: about how many products each takes that is not done (`pupil.cost`).
     """
 
     def __init__(self, stack: Stack, missing: Sequence[Chunk], watch: StackProgress) -> None:
@@ -80,7 +80,7 @@ def chunk_costs(stack: Stack, chunks: Sequence[Chunk]) -> np.ndarray:
     for some in np.array_split(np.arange(len(chunks)), len(chunks) // COSTS_AT_ONCE + 1):
         points = space.depths_mm[depth[some], None], ends[some]
         coefficients = database.coefficients(*points, space.wavelengths_um[colour[some], None])
-        found[some] = products(coefficients, sampling.pixels, sampling.pixel_um or stack.pixel_um).mean(-1)
+        found[some] = separable_products(coefficients, sampling.pixels, sampling.pixel_um or stack.pixel_um).mean(-1)
     return found * [psf_count(stack, chunk) for chunk in chunks]
 
 

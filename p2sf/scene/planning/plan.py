@@ -20,7 +20,7 @@ from p2sf.scene.field_area import Point
 from p2sf.scene.files import read_scene
 from p2sf.scene.planning.adaptive_table import from_phase
 from p2sf.scene.planning.bounds import check_blur, check_colours
-from p2sf.scene.planning.cost import Cost, predicted_cost
+from p2sf.scene.planning.cost import Cost, mirrored, naive_work, plan_work, predicted_cost
 from p2sf.scene.planning.field_points import scene_maps
 from p2sf.scene.planning.nodes import (
     DEPTH_COUNTS,
@@ -34,7 +34,6 @@ from p2sf.scene.planning.nodes import (
     spans,
     worst_errors,
 )
-from p2sf.scene.planning.pricing import mirrored, naive_work, plan_work
 from p2sf.scene.planning.sharing import share_pupils
 from p2sf.scene.planning.study import (
     FINE_SAMPLING,

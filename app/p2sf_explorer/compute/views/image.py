@@ -35,8 +35,8 @@ from p2sf.paraxial.pupils import field_from_image_height
 from p2sf.pixel_kernels.channel import RAYS, Recipe
 from p2sf.pixel_kernels.sensor_points import chief_heights
 from p2sf.scene.field_area import field_area
+from p2sf.scene.planning.cost import computed_counts
 from p2sf.scene.planning.plan import Plan, plan
-from p2sf.scene.planning.pricing import computed_counts
 from p2sf.scene.scene import Channel, Scene
 from p2sf.scene.sensor import Sensor
 from p2sf_explorer.compute.live import Live, View

@@ -5,7 +5,6 @@ from math import inf
 
 import pytest
 
-from p2sf.database.cost import products
 from p2sf.database.files.stack_work import StackProgress, StackWork
 from p2sf.database.files.stack_write import write_stack
 from p2sf.database.render import fine_sampling
@@ -13,6 +12,7 @@ from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.seidel_stack import stack_parts
 from p2sf.psf.seidel_sum import shape_terms
+from p2sf.pupil.cost import separable_products
 from tests.database.test_stack import SAMPLING, small
 
 ROUNDED = (1 + 1 / 8) ** 2  # counts of rows and of columns are rounded up to four significant bits
@@ -30,7 +30,7 @@ def summed(c, pixels, pixel_um) -> float:
 @pytest.mark.parametrize(("depth_mm", "field"), [(inf, 0.0), (inf, 0.25), (20_000.0, 0.1), (3_000.0, 0.2)])
 def test_the_products_are_those_of_the_rows_and_columns_that_are_summed(depth_mm, field, pixels, pixel_um):
     c = coefficients(find_lens("double_gauss_28"), depth_mm, field, 0.55)
-    assert 1 <= summed(c, pixels, pixel_um) / float(products(c, pixels, pixel_um)) <= ROUNDED
+    assert 1 <= summed(c, pixels, pixel_um) / float(separable_products(c, pixels, pixel_um)) <= ROUNDED
 
 
 def test_the_costliest_chunks_come_first(tmp_path):
