@@ -87,8 +87,8 @@ class FittedDatabase:
             phase, fx, fy, amplitude = turned_fit(self.level, phase, fx, fy, amplitude, turn_deg)
         mask, colour = self.mask.turned(-source.azimuth_deg), float(source.wavelength_um)
         steep = with_slopes(steepness(self.level, phase, fx, fy), mask, colour)
-        made = self.level, phase, fx, fy, self.residual_waves, steep
-        return FittedPencil(*made, blur_um2=np.nan, rays=0, amplitude=amplitude, mask=mask, wavelength_um=colour)
+        made = self.level, self.level.function(phase, fx, fy, amplitude), self.residual_waves, steep
+        return FittedPencil(*made, blur_um2=np.nan, rays=0, mask=mask, wavelength_um=colour)
 
     @one_blas_thread
     def psf(self, source: Source, pixels: int, pixel_um: float | None = None) -> Psf:
@@ -277,7 +277,7 @@ def steepness(level: Level, phase: np.ndarray, fx: np.ndarray, fy: np.ndarray) -
     rho, sine = np.hypot(xi, eta), np.sqrt(np.maximum(1 - eta * eta, SMALLEST))
     slopes, values, (of_fx, of_fy) = _terms_at_rays(level)
     across, along = (phase @ part for part in slopes)
-    by_xi, by_eta = ((fx @ a, fy @ b) for a, b in zip(of_fx, of_fy, strict=True))
+    by_xi, by_eta = (np.stack([fx @ a, fy @ b]) for a, b in zip(of_fx, of_fy, strict=True))
     spread = float(np.hypot(fx @ values.fx, fy @ values.fy).max())
     return Steepness(
         radial=float(np.abs((xi * across + eta * along) / rho).max()),

@@ -17,7 +17,7 @@ from p2sf.lens.misalignment import average_azimuths
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import Stop, find_stop
-from p2sf.pupil.fit import FittedPencil, Level, fit, fit_rays, level_rays, levels, levels_for, pencil_forms
+from p2sf.pupil.fit import FittedPencil, Level, fit, fit_rays, fit_terms, level_rays, levels, levels_for
 from p2sf.raytrace.pencil import Rays, all_reaching, on_sensor
 from p2sf.threads import one_blas_thread
 
@@ -99,11 +99,8 @@ def _rows_at(lens: Lens, axes: Axes, level: Level, nodes: Sequence[np.ndarray], 
     for place in product(*fields):
         sources = [axes.source((depth, *place, wave)) for depth, wave in product(depths, waves)]
         rays, chief = rays_on_sensor(lens, sources, level, stop)
-        forms = pencil_forms(rays, level)
-        amplitude = [forms.amplitude] * level.weighted
-        numbers = np.concatenate(
-            [forms.phase, forms.fx, forms.fy, *amplitude, chief[:, -axes.fields.chief_numbers :]], axis=1
-        )
+        terms = fit_terms(rays, level)[: 3 + level.weighted]
+        numbers = np.concatenate([*terms, chief[:, -axes.fields.chief_numbers :]], axis=1)
         scale = np.stack([powers(level, source, axes.fields) for source in sources])
         rows = np.divide(numbers, scale, out=np.zeros_like(numbers), where=scale != 0)
         found.append(rows.reshape(len(depths), len(waves), -1))
@@ -137,10 +134,9 @@ def ray_error(
     database: FittedDatabase, source: Source, direct: FittedPencil, x_um: np.ndarray, y_um: np.ndarray
 ) -> float:
     """Return the RMS phase error in waves of looked-up numbers against the fit itself, at the landing points."""
-    level = database.level
-    phase, fx, fy, _, _ = split(level, database.numbers_at(source))
-    difference = replace(direct, phase=phase - direct.phase, fx=fx - direct.fx, fy=fy - direct.fy)
-    wave, across, along = difference.at(*level_rays(level)[:2])
+    xi, eta, _ = level_rays(database.level)
+    *terms, _ = split(database.level, database.numbers_at(source))
+    wave, across, along, _ = (database.level.function(*terms) - direct.function).at(xi, eta)
     return float(np.sqrt(np.mean((wave + across * x_um + along * y_um) ** 2)))
 
 

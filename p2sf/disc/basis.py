@@ -14,9 +14,7 @@ from numpy.typing import ArrayLike
 
 from p2sf.conventions import write_protect
 from p2sf.disc.domain import HALF, ClearNodes, PupilDomain
-from p2sf.disc.mask import CLEAR, PupilMask
-from p2sf.disc.mask_nodes import mask_nodes
-from p2sf.disc.zernike import basis, columns, evaluate, gradient, terms
+from p2sf.disc.zernike import basis, gradient, terms
 
 Gradient: TypeAlias = tuple[np.ndarray, np.ndarray]  # ∂/∂ξ and ∂/∂η of some terms, each (terms, points)
 Kinds: TypeAlias = tuple[np.ndarray, np.ndarray]  # values for the terms even in ξ and for the odd ones
@@ -76,15 +74,6 @@ class Terms:
         across, along = zip(*(gradient(self.order, xi, eta, odd) for odd in self.parities), strict=True)
         return np.concatenate(across), np.concatenate(along)
 
-    def evaluate(self, coefficients: np.ndarray, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
-        """Return Σ coefficient·term at pupil points of any shape, by Horner's rule."""
-        square = xi * xi
-        parts = ((odd, evaluate(columns(own, self.order, odd), square, eta)) for odd, own in self.kinds(coefficients))
-        first, *others = (xi * value if odd else value for odd, value in parts)
-        for other in others:
-            first = first + other
-        return first
-
     def widened(self, coefficients: np.ndarray, order: int) -> np.ndarray:
         """Return coefficients, (…, terms), with zeros for the terms up to a higher order."""
         parts = []
@@ -120,9 +109,6 @@ def _harmonics(order: int) -> tuple[np.ndarray, np.ndarray]:
     """Return m of every even term, and the indices of those with m > 0, which the odd terms match in the same order."""
     harmonic = np.array([m for _, m in terms(order)])
     return write_protect(harmonic), write_protect(np.flatnonzero(harmonic))
-
-
-CONSTANT = Terms(0, (False,))
 
 
 class PupilValues(NamedTuple):
@@ -178,7 +164,7 @@ class PupilBasis:
 
 @dataclass(frozen=True, eq=False)
 class BasisAtNodes:
-    """A basis at nodes over the part of its domain that a mask leaves open."""
+    """A basis at nodes over its domain."""
 
     basis: PupilBasis
     nodes: ClearNodes
@@ -195,12 +181,6 @@ class BasisAtNodes:
 
 
 @lru_cache(maxsize=24)
-def at_nodes(basis: PupilBasis, counts: tuple[int, int], mask: PupilMask = CLEAR) -> BasisAtNodes:
+def at_nodes(basis: PupilBasis, counts: tuple[int, int]) -> BasisAtNodes:
     """Return a basis at the nodes of (radial, angular) ``counts``; it is cached with its terms."""
-    return BasisAtNodes(basis, basis.domain.over(mask_nodes(mask, *counts)))
-
-
-def determinant(fx: np.ndarray, fy: np.ndarray, of_fx: Gradient, of_fy: Gradient) -> np.ndarray:
-    """Return ∂(fx, fy)/∂(ξ, η) from coefficients and the gradients of the terms of fx and of fy."""
-    determinant: np.ndarray = (fx @ of_fx[0]) * (fy @ of_fy[1]) - (fx @ of_fx[1]) * (fy @ of_fy[0])
-    return determinant
+    return BasisAtNodes(basis, basis.domain.nodes(counts))

@@ -6,7 +6,7 @@ as there are nodes, and converge geometrically (Boyd 2001, §18.5).
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import TypeAlias
 
@@ -22,6 +22,7 @@ Counts: TypeAlias = tuple[int, int]
 """Radii, and directions around the whole circle, an even number."""
 Pair: TypeAlias = tuple[np.ndarray, np.ndarray]
 VALUE, BY_RADIUS, BY_ANGLE = "value", "∂/∂ρ", "∂/∂θ"
+BLOCK = 2**14  # points evaluated at once: 3 MB for each channel of order 24
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,6 +38,14 @@ class DiscFunction:
     odd: tuple[bool, ...]
     domain: PupilDomain = HALF
 
+    def __sub__(self, other: "DiscFunction") -> "DiscFunction":
+        """Return the difference of functions that have the same nodes."""
+        return replace(self, values=self.values - other.values)
+
+    def channels(self, some: slice) -> "DiscFunction":
+        """Return some of the functions."""
+        return replace(self, values=self.values[..., some, :], odd=self.odd[some])
+
     def on(self, counts: Counts) -> np.ndarray:
         """Return the functions at the nodes of other counts, (…, channels, nodes)."""
         return self.on_polar(*disc_axes(*counts))
@@ -46,11 +55,12 @@ class DiscFunction:
 
         ``theta`` counts from +η towards the side on which a point lies; points at −ξ, if the domain has any, come last.
         """
-        sides = self.domain.halves
-        found = np.zeros((*self.values.shape[:-1], len(sides), radius.size * theta.size))
+        halves, axes = self.domain.halves, (radius.tobytes(), theta.tobytes())
+        found = np.zeros((*self.values.shape[:-1], len(halves), radius.size, theta.size))
         for channel, odd, part in self._parts():  # one by one: of millions of points each takes 50 MB
-            signs = np.array(sides)[:, None] if odd else 1
-            found[..., channel, :, :] += signs * _onto(part, self.counts, (radius, theta), odd, what)[..., None, :]
+            values = _onto(part, self.counts, axes, odd, what)
+            for k, half in enumerate(halves):
+                found[..., channel, k, :, :] += half * values if odd else values
         return found.reshape(*self.values.shape[:-1], -1)
 
     def at(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
@@ -59,22 +69,42 @@ class DiscFunction:
         As polynomials of the `order` that the nodes determine, which are the functions where these are polynomials:
         fifteen times as fast as all harmonics, which `on_polar` shares between the points of a circle, at 2500 points.
         """
-        squares, heights = rising_powers(xi * xi, self.order // 2 + 1), rising_powers(eta, self.order + 1)
         found = np.zeros((*self.values.shape[:-1], xi.size))
-        for odd, table in self._tables:
-            part = np.einsum("...bn,bn->...n", table @ squares, heights)
-            part[..., odd, :] *= xi
-            found += part
+        for some in (slice(first, first + BLOCK) for first in range(0, xi.size, BLOCK)):
+            squares, heights = self._powers_at(xi[some], eta[some])
+            for odd, table in self._tables:
+                part = _sum(table, squares, heights)
+                part[..., odd, :] *= xi[some]
+                found[..., some] += part
         return found
+
+    def slopes_at(self, xi: np.ndarray, eta: np.ndarray) -> Pair:
+        """Return ∂/∂ξ and ∂/∂η at points of the disc, as `at` does the functions."""
+        squares, heights = self._powers_at(xi, eta)
+        across, along = np.zeros((2, *self.values.shape[:-1], xi.size))
+        for odd, table in self._tables:
+            even = [channel for channel in range(len(self.odd)) if channel not in odd]
+            power = 2 * np.arange(table.shape[-1])  # of ξ, one more in odd channels
+            across[..., odd, :] += _sum(table[..., odd, :, :] * (power + 1), squares, heights)
+            across[..., even, :] += xi * _sum((table[..., even, :, :] * power)[..., 1:], squares[:-1], heights)
+            part = _sum(table[..., 1:, :] * np.arange(1, table.shape[-2])[:, None], squares, heights[:-1])
+            part[..., odd, :] *= xi
+            along += part
+        return across, along
+
+    def _powers_at(self, xi: np.ndarray, eta: np.ndarray) -> Pair:
+        """Return the powers of ξ² and of η that the polynomials have, (powers, points)."""
+        return rising_powers(xi * xi, self.order // 2 + 1), rising_powers(eta, self.order + 1)
 
     @property
     def order(self) -> int:
         """Return the highest order of polynomials all products of which the rule of its nodes integrates exactly."""
         return min(2 * self.counts[0], self.counts[1] // 2) - 1
 
-    def gradient(self) -> Pair:
-        """Return ∂/∂ξ and ∂/∂η at its own nodes, each (…, channels, nodes)."""
-        axes, nodes = disc_axes(*self.counts), self.domain.nodes(self.counts)
+    def gradient(self, counts: Counts | None = None) -> Pair:
+        """Return ∂/∂ξ and ∂/∂η at its own nodes or those of other counts, each (…, channels, nodes)."""
+        counts = counts or self.counts
+        axes, nodes = disc_axes(*counts), self.domain.nodes(counts)
         square = nodes.xi**2 + nodes.eta**2
         by_radius, by_angle = (self.on_polar(*axes, what) for what in (BY_RADIUS, BY_ANGLE))
         outwards, around = by_radius / np.sqrt(square), by_angle * np.sign(nodes.xi) / square
@@ -97,23 +127,26 @@ class DiscFunction:
 
     def _parts(self) -> Iterator[tuple[int, bool, np.ndarray]]:
         """Yield, of each channel, what is even in ξ of it and what is odd, by the values on the half ξ > 0."""
-        halves = self.domain.halves
-        sides = self.values.reshape(*self.values.shape[:-1], len(halves), -1)
+        sides = self.values.reshape(*self.values.shape[:-1], len(self.domain.halves), -1)
+        first, last = sides[..., 0, :], sides[..., -1, :]  # of the half disc they are one
+        parts = ((first + last) / 2, (first - last) / 2) if len(self.domain.halves) > 1 else (first, first)
         for channel, own in enumerate(self.odd):
             for odd in self.domain.parities(own):
-                signs = np.array(halves)[:, None] if odd else 1
-                yield channel, odd, (signs * sides[..., channel, :, :]).sum(-2) / len(halves)
+                yield channel, odd, parts[odd][..., channel, :]
 
 
-def _onto(values: np.ndarray, counts: Counts, axes: Pair, odd: bool, what: str) -> np.ndarray:
-    """Return a function at radii × angles, (…, radii·angles), from its values at the nodes of the half disc."""
-    radius, theta = axes
-    up, across = _matrices(counts, (radius.tobytes(), theta.tobytes()), odd, what)
-    grid = values.reshape(*values.shape[:-1], counts[0], counts[1] // 2)
-    # Even and odd harmonics separately, side by side in ``across`` and in ``up``.
-    both = grid @ across
-    found: np.ndarray = up @ np.concatenate([both[..., : theta.size], both[..., theta.size :]], axis=-2)
-    return found.reshape(*values.shape[:-1], -1)
+def _sum(table: np.ndarray, squares: np.ndarray, heights: np.ndarray) -> np.ndarray:
+    """Return Σ table[…, b, a]·heights[b]·squares[a], (…, points)."""
+    found: np.ndarray = np.einsum("...bn,bn->...n", table @ squares, heights)
+    return found
+
+
+def _onto(values: np.ndarray, counts: Counts, axes: tuple[bytes, bytes], odd: bool, what: str) -> np.ndarray:
+    """Return a function at radii × angles, (…, radii, angles), from its values at the nodes of the half disc."""
+    up, across = _matrices(counts, axes, odd, what)
+    both = values.reshape(*values.shape[:-1], counts[0], counts[1] // 2) @ across
+    found: np.ndarray = up @ both.reshape(*values.shape[:-1], 2 * counts[0], -1)
+    return found
 
 
 @lru_cache(maxsize=32)
@@ -127,7 +160,8 @@ def _means(counts: Counts, order: int, odd: bool) -> np.ndarray:
 def _matrices(counts: Counts, axes: tuple[bytes, bytes], odd: bool, what: str) -> Pair:
     """Return the matrices (radii, 2·radial) and (angular/2, 2·angles) between which `_onto` takes values.
 
-    ``axes``: radii and angles as bytes. The first halves are for even harmonics, the others for odd ones.
+    ``axes``: radii and angles as bytes. Even harmonics and odd ones are separate: the former in every other column of
+    the first matrix and in the first half of the second, the latter in the others.
     """
     rho, theta = map(np.frombuffer, axes)
     analysis, number = _harmonics(counts[1], odd)
@@ -137,7 +171,8 @@ def _matrices(counts: Counts, axes: tuple[bytes, bytes], odd: bool, what: str) -
     polynomial, slope = _polynomials(counts[0], rho)
     linear = polynomial + rho[:, None] * slope if what == BY_RADIUS else rho[:, None] * polynomial
     even = slope if what == BY_RADIUS else polynomial
-    return write_protect(np.concatenate([even, linear / disc_axes(*counts)[0]], axis=1)), write_protect(across)
+    up = np.stack([even, linear / disc_axes(*counts)[0]], axis=2).reshape(rho.size, -1)
+    return write_protect(up), write_protect(across)
 
 
 @lru_cache(maxsize=8)

@@ -5,15 +5,12 @@ Z = N·P_k(2ρ² − 1)·H_m with k = (n − m)/2, P_k the Jacobi polynomial of 
 angle and hence smooth at the centre (Born & Wolf 1999, §9.2.1; Abramowitz & Stegun 1964, 22.7.1, 22.8).
 """
 
-from collections.abc import Sequence
 from functools import lru_cache
 from math import comb, factorial
 from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
-
-from p2sf.conventions import FloatOrArray
 
 _Powers: TypeAlias = dict[tuple[int, int], float]  # coefficients by the exponents of (ξ², η)
 
@@ -131,38 +128,3 @@ def _exponents(order: int) -> tuple[np.ndarray, np.ndarray]:
     """Return a and b of every ξ²ᵃ·ηᵇ up to this degree."""
     down, along = np.array([(a, b) for a in range(order // 2 + 1) for b in range(order - 2 * a + 1)]).T
     return down, along
-
-
-def columns(coefficients: np.ndarray, order: int, odd: bool = False) -> list[list[float]]:
-    """Return Σ coefficient·term as plain numbers c[b][a] for ξ²ᵃ·ηᵇ, the input of `evaluate`."""
-    form = powers(order, odd)
-    flat = (coefficients @ form.reshape(len(form), -1)).reshape(form.shape[1:])
-    top = order - 1 if odd else order
-    return [column[: (top - b) // 2 + 1].tolist() for b, column in enumerate(flat.T[: top + 1])]
-
-
-def evaluate(form: list[list[float]], square: np.ndarray, eta: np.ndarray) -> np.ndarray:
-    """Return Σ c[b][a]·squareᵃ·ηᵇ by Horner's rule, the fastest way to evaluate a fit at new points."""
-    return _in_eta([_in_square(column, square) for column in form], eta)
-
-
-def _in_eta(parts: Sequence[FloatOrArray], eta: np.ndarray) -> np.ndarray:
-    """Return Σ parts[b]·ηᵇ, each part an array or a number."""
-    last = parts[-1]
-    value: np.ndarray = last.copy() if isinstance(last, np.ndarray) else last * np.ones_like(eta)
-    for part in parts[-2::-1]:
-        value *= eta
-        value += part
-    return value
-
-
-def _in_square(column: list[float], square: np.ndarray) -> FloatOrArray:
-    """Return Σ column[a]·squareᵃ; a plain number if there is only column[0]."""
-    if len(column) == 1:
-        return column[0]
-    value: np.ndarray = column[-1] * square
-    for c in column[-2:0:-1]:
-        value += c
-        value *= square
-    value += column[0]
-    return value

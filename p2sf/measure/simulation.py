@@ -113,7 +113,7 @@ def lens_light(
     optics = PictureOptics(spread, 1.0, pixel_um)
     counts = counts_for(found.steepness.radial, spread, 1.1 * half * pixel_um)
     nodes = lens_nodes(found, float(np.arctan2(*place)), counts)
-    waves = found.phase @ found.level.basis.phase.values(nodes.xi, nodes.eta)
+    waves = found.function.at(nodes.xi, nodes.eta)[0]
     x, y = ((a - b) * UM_PER_MM for a, b in zip(place, centre, strict=True))
     phase = nodes.waves - waves - nodes.fx * x - nodes.fy * y
     return PixelSum(nodes, (2 * half + 1,) * 2, optics, optics.parts + FINER).light(phase)

@@ -433,8 +433,7 @@ def pupil_of_fit(found: FittedPencil, turn_deg: float = 0.0, end: PupilEnd = WHO
 
     def evaluate_fit(sampling: RayCounts) -> PupilSamples:
         columns, rim = end.columns(sampling.counts, domain)
-        phase, fx, fy = found.at(*columns[:2])
-        weight = found.amplitude_at(*columns[:2])
+        phase, fx, fy, weight = found.function.at(*columns[:2])
         table = np.stack([*columns, weight, phase, *rotate_frequencies(fx, fy, turn_deg)])
         return _samples(table, rim, domain, end.disc(sampling.counts))
 

@@ -6,11 +6,13 @@ polynomials are Zernike's, so that a field in another direction is the same pupi
 """
 
 from collections.abc import Sequence
-from dataclasses import fields, replace
+from dataclasses import replace
+from typing import TypeAlias
 
 import numpy as np
 
-from p2sf.disc.basis import Kinds, Terms, at_nodes, determinant
+from p2sf.disc.basis import Kinds, Terms
+from p2sf.disc.disc_function import Counts, DiscFunction
 from p2sf.disc.domain import HALF, ClearNodes, PupilDomain
 from p2sf.disc.mask import PupilMask
 from p2sf.disc.zernike import basis_by_powers
@@ -21,7 +23,7 @@ from p2sf.paraxial.seidel import coefficients
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.pixel_kernels.pupil_stack import PixelPupil, PupilStack, frequency_basis, with_reach
 from p2sf.pupil.clear_pieces import CLIPPED
-from p2sf.pupil.fit import Level, PencilForms, fit, level_rays, pencil_forms
+from p2sf.pupil.fit import AMPLITUDE, MAP, Level, area_of, fit, fit_terms, level_rays, residuals
 from p2sf.pupil.seen_mask import mask_seen
 from p2sf.raytrace.aiming import Sources, pupil_rays, start
 from p2sf.raytrace.pencil import all_reaching, in_azimuth, on_sensor
@@ -34,6 +36,8 @@ FEWER_NODES, SPARSE = (10, 28), 8  # enough for terms up to this order where no 
 PHASE_RESIDUAL = 2e-4  # waves RMS: 2e-3 of relative L2 in the finest detail, less in a pixel
 POINT_RESIDUAL = 5e-4  # of the pupil radius
 NEARLY_CLEAR = -0.15  # of 1 − (height/rim)²: nodes up to here count as clear, since the rim lies between them
+Fits: TypeAlias = tuple[DiscFunction, np.ndarray]
+"""Fits of one level, the channels of `FittedPencil` with an axis of pupils first, and their RMS phase errors, waves."""
 CLIPPED_SHARE, BESIDE = 0.03, 1.7  # the part that clipped nodes have in a fit, and up to which square of u
 
 
@@ -56,10 +60,9 @@ def _by_six(lens: Lens, source: Source, numbers: int | None, clip: bool) -> Pupi
 def _by_fit(lens: Lens, source: Source, numbers: int | None, clip: bool) -> PupilStack:
     found = fit(lens, source, numbers)
     if lens.sensor_surface.curvature:
-        return pupils_of(lens, [source], fitted_forms(lens, [source], found.level)[0], found.level, clip)
-    columns = (found.phase, found.fx, found.fy, found.amplitude, found.residual_waves)
-    forms = PencilForms(*(np.array([v]) for v in (*columns, found.map_residual, found.amplitude_residual)))
-    return pupils_of(lens, [source], forms, found.level, clip)
+        return pupils_of(lens, [source], fits_of(lens, [source], found.level)[0], found.level, clip)
+    one = replace(found.function, values=found.function.values[None])
+    return pupils_of(lens, [source], (one, np.array([found.residual_waves])), found.level, clip)
 
 
 PUPILS = {"seidel": _by_six, "fitted": _by_fit}
@@ -74,7 +77,7 @@ def of_azimuths(sources: Sequence[Source]) -> list[list[int]]:
     return list(groups.values())
 
 
-def fitted_forms(lens: Lens, sources: Sequence[Source], level: Level) -> tuple[PencilForms, np.ndarray]:
+def fits_of(lens: Lens, sources: Sequence[Source], level: Level) -> tuple[Fits, np.ndarray]:
     """Return the fits of one level to several sources in the axes of the sensor, and their landing points, (n, 2) mm.
 
     Raises GeometryError where rays do not reach the sensor.
@@ -82,27 +85,32 @@ def fitted_forms(lens: Lens, sources: Sequence[Source], level: Level) -> tuple[P
     groups = of_azimuths(sources)
     points = level_rays(level)[:2]
     rays = [all_reaching(on_sensor(lens, [sources[k] for k in group], *points)).along_axis(lens) for group in groups]
-    forms, order = [pencil_forms(some, level) for some in rays], np.argsort(np.concatenate(groups))
+    found, order = [fit_terms(some, level) for some in rays], np.argsort(np.concatenate(groups))
     landed = [np.concatenate(np.broadcast_arrays(some.chief_x, some.chief_y), axis=1) for some in rays]
-    columns = ([getattr(form, field.name) for form in forms] for field in fields(PencilForms))
-    # The amplitude of unweighted rays is one for all.
-    joined = (several[0] if len(forms) == 1 else np.concatenate(several)[order] for several in columns)
-    return PencilForms(*joined), np.concatenate(landed)[order]
+    left = [residuals(some, level, terms).waves for some, terms in zip(rays, found, strict=True)]
+    functions = [level.function(*terms) for terms in found]
+    values = np.concatenate([one.values for one in functions])[order]
+    return (replace(functions[0], values=values), np.concatenate(left)[order]), np.concatenate(landed)[order]
 
 
 def pupils_of(
-    lens: Lens, sources: Sequence[Source], fits: PencilForms, level: Level, clip: bool = False, order: int = ORDERS[0]
+    lens: Lens, sources: Sequence[Source], fits: Fits, level: Level, clip: bool = False, order: int = ORDERS[0]
 ) -> PupilStack:
-    """Return the pupils of fits, (n, terms), all of the least order from ``order`` on that describes each of them.
+    """Return the pupils of fits, all of the least order from ``order`` on that describes each of them.
 
     Raises GeometryError where rims clip all rays of a source.
     """
     rims, behind = _rims(lens, sources, clip, level.basis.domain), _mask_of(lens, sources)
+    (function, left), counts = fits, (0, 0)
     while True:
-        found, excess = _of_order(order, fits, level, rims)
+        where = FEWER_NODES if order <= SPARSE and not rims.shape[1] else NODES
+        if counts != where:
+            samples, xi, counts = _samples(function, level, rims, where), function.domain.nodes(where).xi, where
+        found, excess = _of_order(order, samples, xi, level)
         if excess < 1 or order == ORDERS[-1]:
-            waves = np.array([source.wavelength_um for source in sources])
-            return with_reach(replace(found, mask=behind, wavelength_um=waves))
+            residual, waves = np.hypot(found.residual_waves, left), [source.wavelength_um for source in sources]
+            known = {"energy": _energy(function, rims, where), "residual_waves": residual}
+            return with_reach(replace(found, mask=behind, wavelength_um=np.array(waves), **known))
         order = min(order + (4 if excess > FAR_OFF else 2), ORDERS[-1])
 
 
@@ -186,40 +194,53 @@ def seidel_pupils(lens: Lens, points: Sequence[Source], clip: bool = False) -> P
     )
 
 
-def _of_order(order: int, fits: PencilForms, level: Level, rims: np.ndarray) -> tuple[PupilStack, float]:
-    """Return the pupils of fits by terms up to an order, and the worst of their misses over what is allowed.
+def _energy(function: DiscFunction, rims: np.ndarray, where: Counts) -> np.ndarray:
+    """Return the energy of fits as `PixelPupil` has it: by Parseval ∫amplitude²/|∂f/∂(ξ, η)| dξ dη."""
+    nodes, amplitude = function.domain.nodes(where), function.channels(AMPLITUDE).on(where)[:, 0]
+    light = amplitude**2 / np.abs(area_of(function.channels(MAP).gradient(where)))
+    energy: np.ndarray = np.pi * ((rims > 0).all(1) * light if rims.shape[1] else light) @ nodes.weight
+    return energy
 
-    What rims clip is described only as far as the clear part allows.
+
+Samples: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]
+
+
+def _samples(function: DiscFunction, level: Level, rims: np.ndarray, where: Counts) -> Samples:
+    """Return fits at nodes of the pupil: columns, u and v, radius, area and share in the least squares of each.
+
+    Columns are phase, η, amplitude if rays have weights, and rims, (n, columns, nodes). u and v, (2, n, nodes), are
+    (f − centre)/radius.
     """
-    where = FEWER_NODES if order <= SPARSE and not rims.shape[1] else NODES
-    at = at_nodes(level.basis, where)
-    phase, fy = fits.phase @ at.values.phase, fits.fy @ at.values.fy
-    amplitude = fits.amplitude @ at.values.fy[: fits.amplitude.shape[-1]]
-    fx, eta = fits.fx @ at.values.fx, np.broadcast_to(at.nodes.eta, phase.shape)
+    nodes, values = function.domain.nodes(where), function.on(where)
+    phase, fx, fy, amplitude = (values[:, channel] for channel in range(values.shape[1]))
     clear = np.asarray((rims > NEARLY_CLEAR).all(1)) if rims.shape[1] else np.ones(phase.shape, bool)
     fx, fy = _centre_frequencies(fx, clear, level.basis.fx), _centre_frequencies(fy, clear, level.basis.fy)
     radius = 1.02 * np.where(clear, np.hypot(fx, fy), 0.0).max(1)
-    u, v = fx / radius[:, None], fy / radius[:, None]
-    share = np.where(clear, 1.0, np.where(u * u + v * v <= BESIDE, CLIPPED_SHARE, 0.0))[:, None]
-    columns = np.stack([phase, eta, *([amplitude] if level.weighted else [])], axis=1)
-    if rims.shape[1]:
-        columns = np.concatenate([columns, rims], axis=1)
-    basis, kinds = frequency_basis(order, level.basis.domain), basis_kinds(order, u, v)
+    place = np.stack([fx, fy]) / radius[:, None]
+    beside = np.where(np.square(place).sum(0) <= BESIDE, CLIPPED_SHARE, 0.0)
+    columns = np.stack([phase, np.broadcast_to(nodes.eta, phase.shape), *[amplitude] * level.weighted], axis=1)
+    columns = np.concatenate([columns, rims], axis=1) if rims.shape[1] else columns
+    return columns, place, radius, np.where(clear, nodes.weight, 0.0), np.where(clear, 1.0, beside)[:, None]
+
+
+def _of_order(order: int, samples: Samples, xi: np.ndarray, level: Level) -> tuple[PupilStack, float]:
+    """Return the pupils of fits by terms up to an order, and the worst of their misses over what is allowed.
+
+    ``xi``: of the nodes of the samples. What rims clip is described only as far as the clear part allows. The energy is
+    not known.
+    """
+    columns, place, radius, area, share = samples
+    basis, kinds = frequency_basis(order, level.basis.domain), basis_kinds(order, *place)
     rows = basis.phase.of(kinds)
     found = _solve(rows * share, columns * share)
-    xi = _solve(basis.fx.of(kinds) * share, share * at.nodes.xi)[:, 0]
-    waves, miss = ((found[:, k, None] @ rows)[:, 0] - true for k, true in enumerate((phase, eta)))
-    area = np.where(clear, at.nodes.weight, 0.0)
+    across = _solve(basis.fx.of(kinds) * share, share * xi)[:, 0]
+    waves, miss = ((found[:, k, None] @ rows)[:, 0] - columns[:, k] for k in range(2))
     residual = np.sqrt((area * waves**2).sum(1) / area.sum(1))
-    excess = max(float(residual.max()) / PHASE_RESIDUAL, float(np.abs(miss * clear).max()) / POINT_RESIDUAL)
+    excess = max(float(residual.max()) / PHASE_RESIDUAL, float(np.abs(miss * (area > 0)).max()) / POINT_RESIDUAL)
     first = 2 + level.weighted  # of the rims
-    amplitude_of = found[:, 2] if level.weighted else np.empty((len(found), 0))
-    # By Parseval ∫|field|²dx = ∫amplitude²/|∂f/∂(ξ, η)| dξ dη.
-    light = amplitude**2 / np.abs(determinant(fits.fx, fits.fy, *at.map_slopes))
-    energy = np.pi * ((rims > 0).all(1) * light if rims.shape[1] else light) @ at.nodes.weight
-    forms = found[:, 0], found[:, 1], xi, amplitude_of, found[:, first:]
-    unknown, left = np.full(len(found), np.nan), np.hypot(residual, fits.residual_waves)
-    sizes = energy, unknown, left, unknown
+    weight = found[:, 2] if level.weighted else np.empty((len(found), 0))
+    unknown = np.full(len(found), np.nan)
+    forms, sizes = (found[:, 0], found[:, 1], across, weight, found[:, first:]), (unknown, unknown, residual, unknown)
     return PupilStack(basis, radius, *forms, *sizes, "fitted", level.numbers), excess
 
 

@@ -8,8 +8,6 @@ from time import perf_counter
 import numpy as np
 
 from p2sf.conventions import centred_axis
-from p2sf.disc.basis import at_nodes
-from p2sf.disc.disc_function import DiscFunction
 from p2sf.disc.domain import ClearNodes
 from p2sf.disc.mask_nodes import mask_nodes
 from p2sf.disc.quadrature import SETTLED_TOLERANCE
@@ -28,8 +26,6 @@ from p2sf.threads import one_blas_thread
 __all__ = ["FittedPencil", "fit", "fitted_intensity", "fitted_psf", "fitted_waves", "psf_of_fit", "sum_fit"]
 
 NodesOf = Callable[[Counts], ClearNodes]
-Values = tuple[np.ndarray, np.ndarray, np.ndarray]
-MOST_KEPT = 2**14  # radii × directions: 8 MB at most, of a hundred polynomials
 MOST_NODES = 2**24  # radii × directions: some seconds of work
 MOST_FOR_PEAK = 2**18  # of them for the peak alone, which is otherwise sought only in the window
 PREVIEW = 0.9  # of the settled counts: 1 − R² against the settled sum is below 1e-5
@@ -119,32 +115,16 @@ def fitted_waves(
     ``passed``: which of these nodes transmit light, (nodes,); by default all. ``nodes_of``: as `psf_of_fit` has it.
     """
     nodes = nodes_of(counts) if nodes_of else found.level.basis.domain.over(mask_nodes(found.mask, *counts))
-    if found.mask.clear and not nodes_of:
-        phase, fx, fy, amplitude = _on_rings(found, counts)
-    else:
-        phase, fx, fy = _at_nodes(found, nodes, None if nodes_of else counts)
-        phase = phase + nodes.path_um / found.wavelength_um if found.mask.phased else phase
-        amplitude = found.amplitude_at(nodes.xi, nodes.eta)
+    whole = found.mask.clear and not nodes_of
+    phase, fx, fy, amplitude = found.function.on(counts) if whole else found.function.at(nodes.xi, nodes.eta)
+    if found.mask.phased:
+        phase = phase + nodes.path_um / found.wavelength_um
     weight = nodes.weight * nodes.amplitude * amplitude
     if passed is not None:
         weight = np.where(passed, weight, 0.0)
     weight /= weight.sum()
     blur = found.steepness.radial / found.steepness.spread
     return Waves(pupil_amplitude(weight, phase), fx, fy, nodes.domain, blur, reach_um)
-
-
-def _on_rings(found: FittedPencil, counts: Counts) -> np.ndarray:
-    """Return phase, fx, fy and amplitude at the nodes of the whole disc, (4, nodes).
-
-    As many nodes as orders determine the polynomials, and so all others.
-    """
-    basis = found.level.basis
-    order = max(basis.orders)
-    coarse = order // 2 + 2, 2 * order + 4
-    there = at_nodes(basis, coarse)
-    amplitude = found.amplitude @ there.values.fy[: found.amplitude.size]  # its terms are those, or the first of them
-    values = np.stack([*found.on(there.values), amplitude])
-    return DiscFunction(values, coarse, (False, True, False, False), basis.domain).on(counts)
 
 
 def sum_fit(found: FittedPencil, pixels: int, pixel_um: float, quality: str = "settled") -> tuple[np.ndarray, Message]:
@@ -160,17 +140,3 @@ def fitted_intensity(
     """Return |Σ weight·exp(2πi(w + f·x))|² of a fit over its open pupil, (pixels, pixels)."""
     axis = centred_axis(pixels, pixel_um)
     return fitted_waves(found, counts).intensity(axis, axis, dtype)
-
-
-def _at_nodes(found: FittedPencil, nodes: ClearNodes, counts: Counts | None) -> Values:
-    """Return phase, fx and fy of a fit at nodes, in blocks, since a basis at millions of nodes takes gigabytes.
-
-    ``counts``: of the nodes behind its mask, if these are those.
-    """
-    if counts is not None and nodes.xi.size <= MOST_KEPT // 2:
-        return found.on(at_nodes(found.level.basis, counts, found.mask).values)
-    blocks = []
-    for begin in range(0, nodes.xi.size, MOST_KEPT):
-        blocks.append(found.at(nodes.xi[begin : begin + MOST_KEPT], nodes.eta[begin : begin + MOST_KEPT]))
-    phase, fx, fy = (np.concatenate(column) for column in zip(*blocks, strict=True))
-    return phase, fx, fy

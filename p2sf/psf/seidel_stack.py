@@ -6,7 +6,7 @@ as several PSFs, so smaller batches would save less than they cost.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 from math import ceil, sqrt
 
@@ -15,6 +15,7 @@ from numpy.typing import DTypeLike
 
 from p2sf.conventions import write_protect
 from p2sf.disc.basis import PupilBasis
+from p2sf.disc.disc_function import DiscFunction
 from p2sf.disc.mask import CLEAR, PupilMask
 from p2sf.disc.quadrature import (
     RowNodes,
@@ -36,7 +37,7 @@ from p2sf.psf.seidel_sum import (
     shape_terms,
     wave_number,
 )
-from p2sf.pupil.fit import FittedPencil, Level
+from p2sf.pupil.fit import ODD, FittedPencil, Level
 from p2sf.pupil.seen_mask import with_slopes
 from p2sf.raytrace.ray_field import Steepness
 from p2sf.threads import map_threads, one_blas_thread, threads_or_default
@@ -156,30 +157,27 @@ def as_fit(coefficients: Coefficients, mask: PupilMask) -> FittedPencil:
     """
     shape, scale = shape_terms(coefficients)[:4], -float(wave_number(coefficients))
     (along, across), (radial, angular) = chords_of(shape).tolist(), polar_of(shape).tolist()
-    phase, fx, fy = _as_polynomials()
-    found = FittedPencil(
-        SEIDEL_LEVEL,
-        -(phase @ shape),
-        scale * fx,
-        scale * fy,
-        0.0,
-        Steepness(radial, angular, across, along, abs(scale)),
-        1 / (np.pi * scale**2),
-        2,
-    )
+    nodes, every = disc_nodes(*SEIDEL_LEVEL.counts), _shapes()
+    values = np.ones((len(ODD), nodes.xi.size))
+    values[0], values[1], values[2] = -(shape @ every), scale * nodes.xi, scale * nodes.eta
     wavelength = float(coefficients.wavelength_um)
-    steep = with_slopes(found.steepness, mask, wavelength)
-    return replace(found, mask=mask, wavelength_um=wavelength, steepness=steep)
+    return FittedPencil(
+        SEIDEL_LEVEL,
+        DiscFunction(values, SEIDEL_LEVEL.counts, ODD),
+        residual_waves=0.0,
+        steepness=with_slopes(Steepness(radial, angular, across, along, abs(scale)), mask, wavelength),
+        blur_um2=1 / (np.pi * scale**2),
+        rays=2,
+        mask=mask,
+        wavelength_um=wavelength,
+    )
 
 
 @lru_cache(maxsize=1)
-def _as_polynomials() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the coefficients of the shapes, (terms, 4), and of ξ and η, in orthonormal polynomials."""
-    nodes = disc_nodes(6, 12)
-    values = SEIDEL_LEVEL.basis.values(nodes.xi, nodes.eta)
-    phase = (values.phase * nodes.weight) @ shapes(nodes.xi, nodes.eta).T
-    fx, fy = (values.fx * nodes.weight) @ nodes.xi, (values.fy * nodes.weight) @ nodes.eta
-    return write_protect(phase), write_protect(fx), write_protect(fy)
+def _shapes() -> np.ndarray:
+    """Return the shapes at the nodes that determine them, (4, nodes)."""
+    nodes = disc_nodes(*SEIDEL_LEVEL.counts)
+    return write_protect(shapes(nodes.xi, nodes.eta))
 
 
 def _size(rows: RowNodes) -> int:

@@ -5,14 +5,15 @@ it needs no edge and no Jacobian, the rays stay at fixed pupil points, and a fit
 least-squares inverse. Rays that fill the real stop have varying weights, which are fitted by a polynomial too.
 """
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import lru_cache
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from p2sf.conventions import write_protect
-from p2sf.disc.basis import CONSTANT, Gradient, PupilBasis, PupilValues, Terms, determinant
+from p2sf.disc.basis import Gradient, PupilBasis, PupilValues, at_nodes
+from p2sf.disc.disc_function import Counts, DiscFunction
 from p2sf.disc.domain import HALF, HELD_OUT, WHOLE, PupilDomain
 from p2sf.disc.mask import CLEAR, PupilMask
 from p2sf.disc.mask_nodes import mask_nodes
@@ -22,7 +23,7 @@ from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import Stop
 from p2sf.pupil.seen_mask import mask_seen, with_slopes
 from p2sf.raytrace.pencil import Rays, reaching
-from p2sf.raytrace.ray_field import MapSlopes, Steepness, map_slopes, steepness, with_map
+from p2sf.raytrace.ray_field import Steepness, map_slopes, steepness, with_map
 
 # RMS phase error in waves up to which an order is accepted: 1 − R² then stays below some (4πσ)² = 2e-3.
 RESIDUAL_WAVES = 3.5e-3
@@ -31,6 +32,8 @@ RESIDUAL_WAVES = 3.5e-3
 JUDGES = 6, 20  # radii and directions of the rays that check a fit where a mask is open
 CENTRE_POWER, RIM_POWER = -0.75, -0.5
 SLOPE_WEIGHT = 0.1  # relative to the phase: of 1/40, 1/20, 1/10 and 1/5 the best for the worst misaligned lenses
+RayTerms: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
+"""Coefficients of phase, fx, fy and amplitude in the terms of a level, each (…, terms)."""
 
 
 @dataclass(frozen=True)
@@ -49,9 +52,28 @@ class Level:
     by_slopes: bool = False
 
     @property
-    def amplitude(self) -> Terms:
-        """Return the terms of the amplitude: only the constant for rays without weights."""
-        return self.basis.fy if self.weighted else CONSTANT
+    def counts(self) -> Counts:
+        """Return as many radii and directions as determine its polynomials, and integrate products of two of them."""
+        order = max(self.basis.orders)
+        return order // 2 + 1, 2 * order + 2
+
+    def function(self, phase: np.ndarray, fx: np.ndarray, fy: np.ndarray, amplitude: np.ndarray) -> DiscFunction:
+        """Return the polynomials of these coefficients, each (…, terms): phase, fx, fy and amplitude as channels."""
+        there = at_nodes(self.basis, self.counts).values
+        light = there.fy[: amplitude.shape[-1]]  # its terms are those of fy, or the first of them
+        values = np.empty((*phase.shape[:-1], len(ODD), light.shape[-1]))
+        pairs = (phase, there.phase), (fx, there.fx), (fy, there.fy), (amplitude, light)
+        for channel, (coefficients, rows) in enumerate(pairs):
+            values[..., channel, :] = coefficients @ rows
+        return DiscFunction(values, self.counts, ODD, self.basis.domain)
+
+    def coefficients(self, function: DiscFunction) -> RayTerms:
+        """Return the coefficients that give a `function`: means of products, which are exact."""
+        there = at_nodes(self.basis, self.counts)
+        values, share = there.values, there.nodes.weight
+        rows = values.phase, values.fx, values.fy, values.fy
+        phase, fx, fy, light = (function.values[..., k, :] @ (share * row).T for k, row in enumerate(rows))
+        return phase, fx, fy, light
 
     @property
     def numbers(self) -> int:
@@ -93,6 +115,8 @@ SIZES: dict[tuple[PupilDomain, Aim], tuple[Level, ...]] = {
     (WHOLE, "stop"): NOT_SYMMETRIC,
 }
 UNIFORM = write_protect(np.ones(1))  # the first polynomial is 1
+ODD = False, True, False, False  # in ξ, where the pupil is symmetric: phase, fx, fy and amplitude
+PHASE, MAP, AMPLITUDE = slice(0, 1), slice(1, 3), slice(3, 4)  # of those channels
 
 
 def levels(aim: Aim, domain: PupilDomain = HALF) -> tuple[Level, ...]:
@@ -107,25 +131,22 @@ def levels_for(lens: Lens) -> tuple[Level, ...]:
 
 @dataclass(frozen=True, eq=False)
 class FittedPencil:
-    """Coefficients of the orthonormal polynomials of `zernike`: phase in waves, fx and fy in cycles per µm.
+    """Phase in waves, fx and fy in cycles per µm and `Rays.amplitude` over the pupil: the channels of ``function``.
 
-    ``amplitude`` belongs to `Level.amplitude`, the others to `Level.basis`. ``residual_waves`` is the RMS error of the
-    phase where the rays land, ``map_residual`` that of (fx, fy) in cycles per µm, ``amplitude_residual`` that of the
-    amplitude over its mean; ``rays`` counts all that were traced; ``blur_um2`` is ∫|field|²dx at unit unaberrated peak
-    of the clear disc, NaN where its map folds. ``amplitude`` excludes the ``mask``, which is given in the
-    pupil coordinates of the source and whose phase scales with ``wavelength_um``.
+    ``residual_waves`` is the RMS error of the phase where the rays land, ``map_residual`` that of (fx, fy) in cycles
+    per µm, ``amplitude_residual`` that of the amplitude over its mean; ``rays`` counts all that were traced;
+    ``blur_um2`` is ∫|field|²dx at unit unaberrated peak of the clear disc, NaN where its map folds. The amplitude, 1
+    where the paraxial pupil is filled, excludes the ``mask``, which is given in the pupil coordinates of the source and
+    whose phase scales with ``wavelength_um``.
     """
 
     level: Level
-    phase: np.ndarray
-    fx: np.ndarray
-    fy: np.ndarray
+    function: DiscFunction
     residual_waves: float
     steepness: Steepness
     blur_um2: float
     rays: int
     map_residual: float = np.nan
-    amplitude: np.ndarray = field(default_factory=lambda: UNIFORM)
     amplitude_residual: float = 0.0
     mask: PupilMask = CLEAR
     wavelength_um: float = np.nan
@@ -144,21 +165,16 @@ class FittedPencil:
         phase = np.hypot(self.residual_waves, self.map_residual * self.steepness.light_um)
         return float(np.hypot(phase, self.amplitude_residual / (2 * np.pi)))
 
-    def at(self, xi: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return phase (waves), fx and fy (cycles/µm) at pupil points, each (points,)."""
-        return self.on(self.level.basis.values(xi, eta))
+    def jacobian(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
+        """Return ∂(fx, fy)/∂(ξ, η) at pupil points, (points,), (cycles/µm)²."""
+        return area_of(self.function.channels(MAP).slopes_at(xi, eta))
 
-    def on(self, values: PupilValues) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return phase, fx and fy from the values of the terms."""
-        return self.phase @ values.phase, self.fx @ values.fx, self.fy @ values.fy
 
-    def amplitude_at(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
-        """Return `Rays.amplitude` without the mask at points of any shape: 1 where the paraxial pupil is filled."""
-        return self.level.amplitude.evaluate(self.amplitude, xi, eta)
-
-    def jacobian(self, xi: ArrayLike, eta: ArrayLike) -> np.ndarray:
-        """Return ∂(fx, fy)/∂(ξ, η) at pupil points, (cycles/µm)²."""
-        return determinant(self.fx, self.fy, *self.level.basis.map_slopes(xi, eta))
+def area_of(slopes: Gradient) -> np.ndarray:
+    """Return ∂(fx, fy)/∂(ξ, η), (…, points), from ∂/∂ξ and ∂/∂η of the channels of the map."""
+    across, along = slopes
+    area: np.ndarray = across[..., 0, :] * along[..., 1, :] - along[..., 0, :] * across[..., 1, :]
+    return area
 
 
 def fit(
@@ -234,10 +250,10 @@ def _check_points(mask: PupilMask, domain: PupilDomain) -> tuple[np.ndarray, np.
 def behind_mask(found: FittedPencil, checks: CheckRays) -> FittedPencil:
     """Return the fit behind a mask: its slopes added to the steepness, and residuals over its open part if larger."""
     data, share = checks.data, checks.share
-    phase, fx, fy = found.at(checks.xi, checks.eta)
+    phase, fx, fy, amplitude = found.function.at(checks.xi, checks.eta)
     miss_x, miss_y = fx - data.fx, fy - data.fy
     error = phase - data.phase + miss_x * data.x_um + miss_y * data.y_um
-    off = (found.amplitude_at(checks.xi, checks.eta) - data.amplitude) / float(share @ data.amplitude)
+    off = (amplitude - data.amplitude) / float(share @ data.amplitude)
     squares = (share @ error**2, share @ (miss_x**2 + miss_y**2), share @ off**2)
     own = found.residual_waves, found.map_residual, found.amplitude_residual
     residual, map_residual, amplitude_residual = (
@@ -316,23 +332,17 @@ def _slopes_of_phase(rays: Rays, level: Level, fx: np.ndarray, fy: np.ndarray) -
     return -(x * (fx @ fx_xi) + y * (fy @ fy_xi)), -(x * (fx @ fx_eta) + y * (fy @ fy_eta))
 
 
-@dataclass(frozen=True, eq=False)
-class PencilForms:
-    """The coefficients of one or several pencils, (…, terms), as in `FittedPencil`, and their residuals, (…)."""
+class Residuals(NamedTuple):
+    """RMS errors of fits, each (…): of the phase where rays land, of (fx, fy) and of the amplitude over its mean."""
 
-    phase: np.ndarray
-    fx: np.ndarray
-    fy: np.ndarray
+    waves: np.ndarray
+    map: np.ndarray
     amplitude: np.ndarray
-    residual_waves: np.ndarray
-    map_residual: np.ndarray
-    amplitude_residual: np.ndarray
 
 
-def pencil_forms(rays: Rays, level: Level) -> PencilForms:
+def fit_terms(rays: Rays, level: Level) -> RayTerms:
     """Return the least-squares coefficients for a level's rays, (…, ray), of one or several pencils."""
-    _, _, area = level_rays(level)
-    project, used = _projection(level), area.size
+    project, used = _projection(level), level_rays(level)[2].size
     phase, fx, fy = (
         column[..., :used] @ inverse.T
         for inverse, column in ((project.phase, rays.phase), (project.fx, rays.fx), (project.fy, rays.fy))
@@ -340,42 +350,43 @@ def pencil_forms(rays: Rays, level: Level) -> PencilForms:
     if level.by_slopes:
         slopes = zip(project.slopes, _slopes_of_phase(rays, level, fx, fy), strict=True)
         phase = phase + sum(column @ inverse.T for inverse, column in slopes)
-    phase_rows, fx_rows, fy_rows = project.rows
-    amplitude, amplitude_residual = UNIFORM, np.zeros(phase.shape[:-1])
-    if level.weighted:
-        amplitude = rays.amplitude[..., :used] @ project.fy.T
-        miss = amplitude @ fy_rows - rays.amplitude
-        amplitude_residual = _residual(miss, area, amplitude.shape[-1]) / (rays.amplitude[..., :used] @ area)
+    return phase, fx, fy, rays.amplitude[..., :used] @ project.fy.T if level.weighted else UNIFORM
+
+
+def residuals(rays: Rays, level: Level, found: RayTerms) -> Residuals:
+    """Return what coefficients leave of a level's rays, those held out included."""
+    _, _, area = level_rays(level)
+    (phase, fx, fy, amplitude), used = found, area.size
+    phase_rows, fx_rows, fy_rows = _projection(level).rows
     miss_x, miss_y = fx @ fx_rows - rays.fx, fy @ fy_rows - rays.fy
     # At a ray's landing point x the phase of the integrand is w + f·x, so this is the relevant error there.
     error = phase @ phase_rows - rays.phase + miss_x * rays.x_um + miss_y * rays.y_um
     known = 3 if level.by_slopes else 1  # of each ray
-    residual = _residual(error, area, phase.shape[-1] / known)
-    map_residual = np.hypot(_residual(miss_x, area, fx.shape[-1]), _residual(miss_y, area, fy.shape[-1]))
-    return PencilForms(phase, fx, fy, amplitude, residual, map_residual, amplitude_residual)
+    of_phase = _residual(error, area, phase.shape[-1] / known)
+    of_map = np.hypot(_residual(miss_x, area, fx.shape[-1]), _residual(miss_y, area, fy.shape[-1]))
+    if not level.weighted:
+        return Residuals(of_phase, of_map, np.zeros(phase.shape[:-1]))
+    missed = _residual(amplitude @ fy_rows - rays.amplitude, area, amplitude.shape[-1])
+    return Residuals(of_phase, of_map, missed / (rays.amplitude[..., :used] @ area))
 
 
 def fit_rays(rays: Rays, level: Level, traced: int, steep: Steepness | None = None) -> FittedPencil:
     """Return the fit of one level to its rays; their `steepness` is computed unless ``steep`` gives it."""
     xi, eta, weight = level_rays(level)
-    found, share = pencil_forms(rays, level), np.ones(1)
+    found, share = fit_terms(rays, level), np.ones(1)
     if level.weighted:
         share = rays.amplitude[: weight.size] / float(weight @ rays.amplitude[: weight.size])
-    # Parseval: ∫|field|²dx is the area mean of (relative weight)²/|∂(fx, fy)/∂(ξ, η)| over π.
-    area = determinant(found.fx, found.fy, *_slope_basis(level))
-    blur = float(weight @ (share * share / np.abs(area)) / np.pi) if area.min() * area.max() > 0 else np.nan
-    steep = with_map(steep or steepness(rays, xi, eta), *_map_at(level, found, rays))
-    made = level, found.phase, found.fx, found.fy, float(found.residual_waves), steep, blur, traced
-    return FittedPencil(*made, float(found.map_residual), found.amplitude, float(found.amplitude_residual))
-
-
-def _map_at(level: Level, found: PencilForms, rays: Rays) -> tuple[MapSlopes, np.ndarray, np.ndarray]:
-    """Return the slopes of a fitted map at a level's own rays, and where these land, µm."""
-    own = slice(level_rays(level)[2].size)
+    _, fx, fy, _ = found
     (fx_xi, fx_eta), (fy_xi, fy_eta) = _slope_basis(level)
-    by_xi, by_eta = ((found.fx @ x, found.fy @ y) for x, y in ((fx_xi, fy_xi), (fx_eta, fy_eta)))
-    xi, eta, _ = level_rays(level)
-    return map_slopes(xi[own], eta[own], by_xi, by_eta), rays.x_um[own], rays.y_um[own]
+    slopes = by_xi, by_eta = np.stack([fx @ fx_xi, fy @ fy_xi]), np.stack([fx @ fx_eta, fy @ fy_eta])
+    # Parseval: ∫|field|²dx is the area mean of (relative weight)²/|∂(fx, fy)/∂(ξ, η)| over π.
+    area = area_of(slopes)
+    blur = float(weight @ (share * share / np.abs(area)) / np.pi) if area.min() * area.max() > 0 else np.nan
+    own = slice(weight.size)
+    map_of = map_slopes(xi[own], eta[own], by_xi, by_eta)
+    steep = with_map(steep or steepness(rays, xi, eta), map_of, rays.x_um[own], rays.y_um[own])
+    left, of_map, of_light = map(float, residuals(rays, level, found))
+    return FittedPencil(level, level.function(*found), left, steep, blur, traced, of_map, of_light)
 
 
 def _residual(error: np.ndarray, weight: np.ndarray, unknowns: float) -> np.ndarray:

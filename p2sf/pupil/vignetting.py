@@ -13,7 +13,6 @@ from itertools import pairwise
 
 import numpy as np
 
-from p2sf.disc.basis import at_nodes, determinant
 from p2sf.disc.domain import ClearNodes, PupilDomain
 from p2sf.disc.mask_nodes import mask_nodes
 from p2sf.disc.open_part import PupilEdges, StarCurve
@@ -270,16 +269,12 @@ def masked_blur(found: FittedPencil, nodes_of: Callable[[tuple[int, int]], Clear
 
     ``nodes_of``: the nodes of (radial, angular) counts over that pupil where rims end it.
     """
-    if nodes_of is not None:
-        nodes = nodes_of(BLUR_NODES)
-        area = found.jacobian(nodes.xi, nodes.eta)
-    elif found.mask.clear and np.isfinite(found.blur_um2):  # not known of a fit that was looked up
+    if nodes_of is None and found.mask.clear and np.isfinite(found.blur_um2):  # not known of a fit that was looked up
         return found.blur_um2
-    else:
-        there = at_nodes(found.level.basis, BLUR_NODES, found.mask)
-        nodes, area = there.nodes, determinant(found.fx, found.fy, *there.map_slopes)
+    nodes = nodes_of(BLUR_NODES) if nodes_of else found.level.basis.domain.over(mask_nodes(found.mask, *BLUR_NODES))
+    area = found.jacobian(nodes.xi, nodes.eta)
     if not area.min() * area.max() > 0:
         return None
-    field = nodes.amplitude * found.amplitude_at(nodes.xi, nodes.eta)
+    field = nodes.amplitude * found.function.at(nodes.xi, nodes.eta)[-1]
     field = field / ((nodes.weight * field).sum() / nodes.weight.sum())
     return float(nodes.weight @ (field * field / np.abs(area)) / (np.pi * nodes.share))

@@ -86,11 +86,9 @@ class MapSlopes:
         return radial, angular
 
 
-def map_slopes(
-    xi: np.ndarray, eta: np.ndarray, by_xi: tuple[np.ndarray, np.ndarray], by_eta: tuple[np.ndarray, np.ndarray]
-) -> MapSlopes:
-    """Return the slopes of a map (fx, fy) from its derivatives by ξ and by η at points of the disc."""
-    across, up, rho = np.stack(by_xi), np.stack(by_eta), np.hypot(xi, eta)
+def map_slopes(xi: np.ndarray, eta: np.ndarray, across: np.ndarray, up: np.ndarray) -> MapSlopes:
+    """Return the slopes of a map (fx, fy) from its derivatives by ξ and by η at points of the disc, (2, points)."""
+    rho = np.hypot(xi, eta)
     cut = np.sqrt(np.maximum(1 - rho * rho, 0)) / np.maximum(rho, SMALLEST)
     return MapSlopes(cut * (xi * across + eta * up), eta * across - xi * up)
 

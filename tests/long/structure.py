@@ -48,7 +48,7 @@ FEW_LINES = 45
 HOLD_A_PHASE = set(
     """
     Coefficients DesignedPupil Differentials ExactDatabase FittedDatabase FittedPencil FrequencyPupil NodeGrid OpenRays
-    Parts PencilForms PixelPupil PointFit PointPupil Pupil PupilMap PupilNodes PupilSamples PupilStack PupilTable Rays
+    Parts PixelPupil PointFit PointPupil Pupil PupilMap PupilNodes PupilSamples PupilStack PupilTable Rays
     Turned WavefrontMap WavefrontSamples Waves ZernikeFit _Pupil _Waves
     """.split()
 )

@@ -63,7 +63,7 @@ def test_nodes_of_a_lens_give_its_pixel_kernels_at_every_azimuth(triplet, azimut
     source, shift = Source(field_deg=14.0), (0.7, -0.4)
     found = fit(triplet, source)
     nodes = lens_nodes(found, azimuth, (40, 160))
-    waves = -found.phase @ found.level.basis.phase.values(nodes.xi, nodes.eta)
+    waves = -found.function.at(nodes.xi, nodes.eta)[0]
     optics = lens_optics(triplet, np.inf, source.wavelength_um, PITCH)
     light = PixelSum(nodes, (25, 25), optics).light(waves - nodes.fx * shift[0] - nodes.fy * shift[1])
     pupil = pupil_map(triplet, source, "fitted", None)

@@ -94,7 +94,7 @@ def test_light_of_a_pupil_map_behind_a_mask_is_that_of_a_plain_sum(mask):
 
 def light_along_the_field(nodes, found, azimuth):
     """Return the intensity at points of a lens's nodes, unit sum, with the field turned back to +y."""
-    waves = nodes.waves - found.phase @ found.level.basis.phase.values(nodes.xi, nodes.eta)
+    waves = nodes.waves - found.function.at(nodes.xi, nodes.eta)[0]
     fx = nodes.fx * np.cos(azimuth) - nodes.fy * np.sin(azimuth)
     fy = nodes.fx * np.sin(azimuth) + nodes.fy * np.cos(azimuth)
     axis = centred_axis(11, PIXEL)

@@ -8,7 +8,7 @@ from p2sf.lens.lens import with_aim
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.pixel_kernels.channel import Recipe, own_light
-from p2sf.pixel_kernels.frequency_grid import fitted_forms, pupil_map, pupils_of
+from p2sf.pixel_kernels.frequency_grid import fits_of, pupil_map, pupils_of
 from p2sf.pixel_kernels.pixels import PixelWindow, half_width, pixel_kernel, samples_across
 from p2sf.pixel_kernels.pupil_stack import cutting_rims, stack_pupils
 from p2sf.pixel_kernels.pupil_table import chebyshev, pupil_table
@@ -95,7 +95,7 @@ def test_clipped_pupils_fitted_together_are_those_fitted_alone():
     lens = find_lens("double_gauss_28")
     slopes, level = np.tan(np.deg2rad([3.0, 13.0, 14.0])), levels(lens.aim)[1]
     sources = [Source(np.inf, slope, WAVE) for slope in slopes.tolist()]
-    forms, _ = fitted_forms(lens, sources, level)
+    forms, _ = fits_of(lens, sources, level)
     together = pupils_of(lens, sources, forms, level, clip=True)
     for k, slope in enumerate(slopes):
         alone = pupil_map(lens, Source(np.inf, float(slope), WAVE), "fitted", level.numbers, clip=True)

@@ -3,12 +3,10 @@
 import numpy as np
 import pytest
 
-from p2sf.disc.basis import at_nodes
-from p2sf.disc.mask import PupilMask
 from p2sf.disc.quadrature import SETTLED_TOLERANCE, disc_nodes
 from p2sf.disc.zernike import basis, gradient, terms
 from p2sf.errors import GeometryError, SamplingError
-from p2sf.lens.lens import with_aim, with_mask
+from p2sf.lens.lens import with_aim
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.psf import fitted
@@ -22,24 +20,13 @@ from tests.support.tiers import in_tiers
 from tests.support.waves import r_squared
 
 
-def test_a_sum_of_many_nodes_is_that_of_all_at_once_and_keeps_no_basis(monkeypatch):
-    """A hundred polynomials at all nodes of the largest sum would be gigabytes: behind a mask they come in blocks."""
-    lens, source, *_ = next(cases("double_gauss_28"))
-    found, counts = fit(with_mask(lens, PupilMask(obscuration=0.3)), source), (100, 400)
-    at_nodes.cache_clear()
-    parts = fitted.fitted_intensity(found, counts, 16, 2.0)
-    assert at_nodes.cache_info().currsize == 0
-    monkeypatch.setattr(fitted, "MOST_KEPT", 10**6)
-    assert parts == pytest.approx(fitted.fitted_intensity(found, counts, 16, 2.0), rel=1e-10, abs=1e-12)
-
-
 @pytest.mark.parametrize("place", [0, 2])
 def test_few_nodes_tell_a_fit_at_all_others(place):
     lens, source, *_ = list(cases("double_gauss_28"))[place]
     found, counts = fit(lens, source), (24, 64)
     waves, nodes = fitted.fitted_waves(found, counts), disc_nodes(*counts)
-    phase, fx, fy = found.at(nodes.xi, nodes.eta)
-    weight = nodes.weight * found.amplitude_at(nodes.xi, nodes.eta)
+    phase, fx, fy, amplitude = found.function.at(nodes.xi, nodes.eta)
+    weight = nodes.weight * amplitude
     assert np.abs(waves.fx - fx).max() < 1e-12 and np.abs(waves.fy - fy).max() < 1e-12
     exact = weight / weight.sum() * np.exp(2j * np.pi * phase)
     assert np.abs(waves.amplitude - exact).max() < 1e-10 * np.abs(exact).max()
@@ -102,7 +89,7 @@ def test_the_residual_is_that_of_rays_the_fit_has_not_seen(name):
     rays = pencil(lens, source, nodes.xi, nodes.eta)
     for numbers in (26, 46):
         found = fit(lens, source, numbers)
-        phase, fx, fy = found.at(nodes.xi, nodes.eta)
+        phase, fx, fy, _ = found.function.at(nodes.xi, nodes.eta)
         error = phase - rays.phase + (fx - rays.fx) * rays.x_um + (fy - rays.fy) * rays.y_um
         seen = np.sqrt(nodes.weight @ error**2)
         assert 0.7 < found.residual_waves / seen < 4  # an estimate, and rather too large than too small
@@ -117,7 +104,7 @@ def test_the_map_of_the_pupil_is_squeezed_off_axis_as_the_witness_found():
     squeeze = []
     for index in (0, 2):
         lens, source, _, _ = list(cases("double_gauss_28"))[index]
-        _, fx, fy = fit(lens, source, 46).at(np.array([0.05, 0.0, 0.0]), np.array([0.0, 0.05, -0.05]))
+        _, fx, fy, _ = fit(lens, source, 46).function.at(np.array([0.05, 0.0, 0.0]), np.array([0.0, 0.05, -0.05]))
         squeeze.append((fx[0], (fy[1] - fy[2]) / 2))
     sagittal, tangential = (off / on for off, on in zip(squeeze[1], squeeze[0], strict=True))
     assert sagittal == pytest.approx(0.979, abs=0.007) and tangential == pytest.approx(0.945, abs=0.007)

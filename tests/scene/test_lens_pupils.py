@@ -10,7 +10,7 @@ from p2sf.files import cache
 from p2sf.lens.lens import with_f_number, with_mask
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.pixel_kernels.frequency_grid import fitted_forms, pupils_of
+from p2sf.pixel_kernels.frequency_grid import fits_of, pupils_of
 from p2sf.pixel_kernels.pixels import PixelWindow, pixel_kernels
 from p2sf.pixel_kernels.pupil_stack import with_reach
 from p2sf.pupil.fit import levels_for
@@ -35,7 +35,7 @@ def forgotten():
 def rays(lens, slopes, vergences, waves):
     sources = [Source(depth_of(v), s, w) for s, v, w in zip(slopes, vergences, waves, strict=True)]
     level = levels_for(lens)[2]
-    forms, landed = fitted_forms(lens, sources, level)
+    forms, landed = fits_of(lens, sources, level)
     return pupils_of(lens, sources, forms, level), landed
 
 

@@ -96,8 +96,8 @@ def of_fit(found: FittedPencil, mask: PupilMask, wavelength_um: float) -> Descri
     """Return the polynomials of a fit behind a mask."""
 
     def field(xi: np.ndarray, eta: np.ndarray) -> Field:
-        phase, fx, fy = found.at(xi, eta)
-        light = found.amplitude_at(xi, eta) * mask_light(mask, xi, eta, wavelength_um)
+        phase, fx, fy, light = found.function.at(xi, eta)
+        light = light * mask_light(mask, xi, eta, wavelength_um)
         return light * np.exp(2j * np.pi * phase), fx, fy
 
     return field

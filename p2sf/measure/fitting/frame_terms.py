@@ -8,6 +8,7 @@ from math import pi
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
+from p2sf.disc.disc_function import DiscFunction
 from p2sf.disc.mask import CLEAR
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens, with_mask, with_sensor
@@ -21,7 +22,7 @@ from p2sf.measure.fitting.pupil_nodes import PupilNodes, counts_for, lens_nodes,
 from p2sf.paraxial.pupils import with_fixed_stop
 from p2sf.paraxial.seidel import coefficients
 from p2sf.pixel_kernels.sensor_points import SensorMap, sensor_map
-from p2sf.pupil.fit import FittedPencil, fit
+from p2sf.pupil.fit import PHASE, FittedPencil, fit
 from p2sf.pupil.seen_mask import mask_seen
 from p2sf.tolerance.errors_of_build import UNITS, Tolerance
 
@@ -223,7 +224,7 @@ class FrameModel:
 
         def waves(ratio: float) -> np.ndarray:
             wide = replace(nodes, **{name: ratio * getattr(nodes, name) for name in ("xi", "eta", "fx", "fy")})
-            phase, focus = -(np.stack([found.phase, moved]) @ found.level.basis.phase.values(wide.xi, wide.eta))
+            phase, focus = (-one.channels(PHASE).at(wide.xi, wide.eta)[0] for one in (found.function, moved))
             phase = phase - shift * (np.sin(azimuth) * wide.fx + np.cos(azimuth) * wide.fy)
             if not errors:
                 return self._with_terms(colour, nodes, (phase, focus), place, (nodes.xi, nodes.eta))
@@ -283,15 +284,15 @@ class FrameModel:
         c = coefficients(self.lens, source.depth_mm, source.field_slope, source.wavelength_um)
         return np.array([c.w40, c.w31, c.w22, c.w20 + c.wd], float)
 
-    def pencil(self, height_mm: float, wavelength_um: float) -> tuple[FittedPencil, np.ndarray]:
-        """Return the fit of a point at a height, and by what its phase's coefficients change per µm of the sensor."""
+    def pencil(self, height_mm: float, wavelength_um: float) -> tuple[FittedPencil, DiscFunction]:
+        """Return the fit of a point at a height, and by what its functions change per µm of the sensor."""
         lens = self.near
         assert lens is not None
         source = self._map().source(0.0, height_mm, wavelength_um)
         found = fit(lens, source, residual_waves=RESIDUAL_WAVES)
         places = (lens.sensor_mm + sign * SHIFT_MM for sign in (1, -1))
-        more, less = (fit(with_sensor(lens, place), source, found.numbers).phase for place in places)
-        return found, (more - less) / (2 * SHIFT_MM * UM_PER_MM)
+        more, less = (fit(with_sensor(lens, place), source, found.numbers).function for place in places)
+        return found, replace(more, values=(more.values - less.values) / (2 * SHIFT_MM * UM_PER_MM))
 
     def source(self, height_mm: float, azimuth: float, wavelength_um: float | None = None) -> Source:
         """Return the source whose chief ray lands at a height, at ``azimuth`` radians from +y towards +x.

@@ -39,10 +39,11 @@ def designed_pupil(
     pupil. Raises GeometryError where rays do not reach the sensor.
     """
     found = fit(lens, source, int(model.name))
-    maps = -found.fx / cycles, -found.fy[1:] / cycles
+    phase, fx, fy, _ = found.level.coefficients(found.function)
+    maps = -fx / cycles, -fy[1:] / cycles
     counts = counts_for(found.steepness.radial, cycles, half_um)
     clear = clear_part(lens, source, counts) if clip else None
-    return DesignedPupil(np.concatenate([-found.phase[2:], *maps]), float(-2 * found.phase[1]), clear)  # Z(1, 1) = 2η
+    return DesignedPupil(np.concatenate([-phase[2:], *maps]), float(-2 * phase[1]), clear)  # Z(1, 1) = 2η
 
 
 def clear_part(lens: Lens, source: Source, counts: Counts) -> ClearNodes | None:

@@ -106,10 +106,8 @@ def lens_nodes(found: FittedPencil, azimuth: float, counts: Counts, clear: Clear
     """
     nodes = open_nodes(found.mask, counts, clear, azimuth)
     xi, eta = rotate(nodes.xi, nodes.eta, azimuth)
-    _, across, along = found.at(xi, eta)
-    return _waves_at(
-        nodes, (xi, eta), rotate(-across, -along, -azimuth), found.amplitude_at(xi, eta), found.wavelength_um
-    )
+    _, across, along, amplitude = found.function.at(xi, eta)
+    return _waves_at(nodes, (xi, eta), rotate(-across, -along, -azimuth), amplitude, found.wavelength_um)
 
 
 def _waves_at(

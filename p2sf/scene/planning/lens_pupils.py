@@ -26,7 +26,7 @@ from p2sf.lens.source import Source
 from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.paraxial.pupils import stop_rim
 from p2sf.paraxial.seidel import coefficients
-from p2sf.pixel_kernels.frequency_grid import NODES, ORDERS, PHASE_RESIDUAL, POINT_RESIDUAL, fitted_forms, pupils_of
+from p2sf.pixel_kernels.frequency_grid import NODES, ORDERS, PHASE_RESIDUAL, POINT_RESIDUAL, fits_of, pupils_of
 from p2sf.pixel_kernels.pupil_stack import FORMS, PupilStack, frequency_basis, terms_of
 from p2sf.pixel_kernels.pupil_table import PupilTable
 from p2sf.pupil.fit import levels_for
@@ -153,14 +153,14 @@ def _fit(lens: Lens, covered: TableRange) -> tuple[PupilTable | None, float]:
     _, slopes, vergences, (blue, _) = covered.ends
     corners = sources([PupilAt(0.0, s, v, blue) for s in slopes for v in vergences])
     for level in levels_for(lens):
-        if fitted_forms(lens, corners, level)[0].residual_waves.max() < CONVERGED_WAVES:
+        if fits_of(lens, corners, level)[0][1].max() < CONVERGED_WAVES:
             break
 
     def fit(pupils: Sequence[PupilAt]) -> tuple[PupilStack, np.ndarray]:
         missing = known.missing(pupils)
         if missing:
-            forms, landed = fitted_forms(lens, sources(missing), level)
-            known.add(missing, pupils_of(lens, sources(missing), forms, level, order=known.order), landed)
+            fits, landed = fits_of(lens, sources(missing), level)
+            known.add(missing, pupils_of(lens, sources(missing), fits, level, order=known.order), landed)
         return known.of(pupils)
 
     return adaptive_table(covered.ends, fit, TARGET_ERROR)

@@ -17,12 +17,12 @@ from p2sf.disc.mask_nodes import throughput
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.pixel_kernels.channel import Colour, PointLights
-from p2sf.pixel_kernels.frequency_grid import fitted_forms, pupils_of
+from p2sf.pixel_kernels.frequency_grid import Fits, fits_of, pupils_of
 from p2sf.pixel_kernels.pixels import PixelWindow, half_widths, pixel_kernels, samples_each
 from p2sf.pixel_kernels.pupil_stack import PupilStack, with_reach
 from p2sf.pixel_kernels.pupil_table import PupilTable, chebyshev, lagrange
 from p2sf.pixel_kernels.sensor_points import SensorMap
-from p2sf.pupil.fit import Level, PencilForms, levels_for
+from p2sf.pupil.fit import Level, levels_for
 from p2sf.scene.field_area import FieldArea, Point, field_area
 from p2sf.scene.planning.adaptive_table import KnownPupils, PupilAt, kernel_errors
 from p2sf.scene.planning.field_points import scene_maps
@@ -78,7 +78,7 @@ class Study:
         self.scan = tuple(self.scene.scan(DEPTHS).tolist())  # both, and depths between them
         self._maps: dict[float, SensorMap] = {}
         self._fits = KnownPupils()
-        self._of_corners: dict[Level, tuple[PencilForms, np.ndarray]] = {}
+        self._of_corners: dict[Level, tuple[Fits, np.ndarray]] = {}
         self._kernels: dict[tuple[Place, Sampling], np.ndarray] = {}
 
     @cached_property
@@ -157,13 +157,13 @@ class Study:
     def residual(self, level: Level) -> float:
         """Return the largest RMS phase residual of fits of this size, waves, at the ends of field and depth."""
         share = 1.0 if self.lens.mask.clear else throughput(self.lens.mask).light  # all of it may be in the open part
-        return float(self._corner_fits(level)[0].residual_waves.max() / np.sqrt(share))
+        return float(self._corner_fits(level)[0][1].max() / np.sqrt(share))
 
-    def _corner_fits(self, level: Level) -> tuple[PencilForms, np.ndarray]:
+    def _corner_fits(self, level: Level) -> tuple[Fits, np.ndarray]:
         """Return the fits of one size at the ends of field and depth, and the chief rays' points, (n, 2) mm."""
         if level not in self._of_corners:
             self.check()
-            self._of_corners[level] = fitted_forms(self.lens, self._sources(self.corners), level)
+            self._of_corners[level] = fits_of(self.lens, self._sources(self.corners), level)
         return self._of_corners[level]
 
     @property
@@ -189,7 +189,7 @@ class Study:
     def from_rays(self, pupils: Sequence[PupilAt]) -> tuple[PupilStack, np.ndarray]:
         """Return pupils from their own rays, and where their chief rays land, (pupils, 2) mm."""
         known, sources = pupils == self.corners, self._sources(pupils)
-        fits, landed = self._corner_fits(self.level) if known else fitted_forms(self.lens, sources, self.level)
+        fits, landed = self._corner_fits(self.level) if known else fits_of(self.lens, sources, self.level)
         return pupils_of(self.lens, sources, fits, self.level, self.scene.clip, self._fits.order), landed
 
     @cached_property

@@ -18,7 +18,7 @@ from p2sf.disc.quadrature import disc_nodes
 from p2sf.disc.zernike import basis, terms
 from p2sf.lens.source import Source
 from p2sf.psf.fitted import sum_fit
-from p2sf.pupil.fit import FittedPencil, Level
+from p2sf.pupil.fit import UNIFORM, FittedPencil, Level
 from p2sf.raytrace.pencil import pencil
 from tests.benchmarks.representations.interpolation import Counts, Rule, node_weights
 from tests.benchmarks.representations.pictures import used_counts
@@ -78,7 +78,7 @@ def pencil_of(numbers: np.ndarray, order: int, wavelength_um: float) -> FittedPe
     # The polynomials of degree 1 are 2ξ and 2η, to have unit mean square.
     fx, fy = np.array([across / 2]), np.array([middle, along / 2])
     level = Level(PupilBasis(order, 1), *RAYS)
-    return FittedPencil(level, phase, fx, fy, 0.0, steepness(level, phase, fx, fy), np.nan, 0)
+    return FittedPencil(level, level.function(phase, fx, fy, UNIFORM), 0.0, steepness(level, phase, fx, fy), np.nan, 0)
 
 
 def _psf(
