@@ -73,6 +73,13 @@ def test_right_answers_are_right_and_foreseen_wrong_ones_get_their_own_hint(stat
             assert (judged.right, judged.hint) == (False, hint), moves
 
 
+def test_an_untouched_page_is_not_told_that_a_slider_was_moved():
+    """The ring at f/6 is 4.29979 µm, and "below 4.3" said to who had touched nothing that the stop was opened."""
+    state, task = next(entry.values for entry in TASKS if entry.id == "l1-goal")
+    judged = task.judge("", state, state)
+    assert not judged.right and judged.hint not in [hint for _, hint in task.answer.wrong]
+
+
 def test_there_are_six_lectures_of_three_tasks_and_ten_questions():
     lectures = [lesson for lesson in LECTURES if lesson.name != CHECK]
     assert [lesson.name for lesson in lectures] == [f"lecture_{k}" for k in range(1, 7)]
