@@ -9,12 +9,13 @@ pupil, so that no edge is laid on a grid and nothing repeats itself, at the poin
 (Barnett, Magland and af Klinteberg 2019); I is a Chebyshev series in r, and its integral another.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import ceil, pi
 
 import numpy as np
-from numpy.polynomial.chebyshev import chebint, chebval, chebvander
+from numpy.polynomial.chebyshev import chebint, chebvander
 
 from p2sf.conventions import write_protect
 from p2sf.disc.domain import PupilDomain
@@ -34,9 +35,11 @@ NODES, NODES_LEAST = (
     9,
 )  # per harmonic of the phase over half the pupil, and more; see `landing_energy` for the margins
 FEWEST_LINES, LINE_EXCESS = 96, 1.5  # of a pupil with corners or a mask; nodes in an angle per even node
-CIRCLES, DIRECTIONS = 0.8, 0.75  # per harmonic that interference of opposite edges would have
+CIRCLES, DIRECTIONS = 0.8, 0.75  # of those that interference of opposite edges would need
 SINGLE, FINE_GRID = 3e-5, 1.25  # relative error and oversampling of the FFT
+DOUBLE, FINEST_GRID = 1e-10, 2.0  # the same of nodes in double precision
 GEOMETRIC = 400  # rows and columns of landing points
+DIVIDED, DIVISIONS = 2, 64  # times, into parts: a step of 1/4096, over which the curve is a line to 1e-8
 JUDGED = 180.0  # waves of slope, to which a pupil is scaled where both roads are compared
 COMPARED = 64  # radii
 
@@ -54,7 +57,9 @@ class EncircledLight:
         Beyond ``top_um`` there are only the wings of a hard edge, with light outside R that falls as 1/R (Lommel 1885).
         """
         inside = np.minimum(radius_um, self.top_um)
-        found: np.ndarray = chebval(2 * inside / self.top_um - 1, self.series)
+        # Tₖ(cos φ) = cos kφ: of some hundred terms Clenshaw's sum takes ten times as long.
+        angle = np.arccos(np.clip(2 * inside / self.top_um - 1, -1, 1))
+        found: np.ndarray = np.cos(np.outer(angle, np.arange(self.series.size))) @ self.series
         outside = (1 - found) * (self.top_um / np.maximum(radius_um, self.top_um))
         return np.where(inside > 0, np.clip(1 - outside, 0.0, 1.0), 0.0)
 
@@ -108,6 +113,26 @@ def energy_of(
     return replace(landing_points(pupil, centre, aside), departure=departure_of_rays(pupil, centre, aside))
 
 
+def radius_of(
+    share: float, within: Callable[[np.ndarray], np.ndarray], radius: np.ndarray, fraction: np.ndarray
+) -> float:
+    """Return the smallest radius that holds a share of the light; NaN where a table of radii and fractions ends before.
+
+    The step of the table that reaches it is divided again and again, each time at once.
+    """
+    above = np.flatnonzero(fraction >= share)
+    if not above.size:
+        return float("nan")
+    at = int(above[0])
+    low, high = radius[max(at - 1, 0)], radius[at]
+    for _ in range(DIVIDED):
+        radius = np.linspace(low, high, DIVISIONS + 1)
+        fraction = within(radius)
+        at = max(int(np.argmax(fraction >= share)), 1) if fraction[-1] >= share else DIVISIONS
+        low, high = radius[at - 1], radius[at]
+    return float(np.interp(share, fraction[at - 1 : at + 1], radius[at - 1 : at + 1]))
+
+
 def departure_of_rays(pupil: FrequencyPupil, centre_um: float, aside_um: float = 0.0) -> float:
     """Return the largest difference between energy by waves and by landing points, of a pupil with a JUDGED slope.
 
@@ -144,15 +169,26 @@ def landing_energy(
     blur = blur_waves(pupil, centre_um, aside_um)
     waves = float(np.clip(radius_um * half, blur + BEYOND, blur + FARTHEST))
     x, y, wave, light = _nodes(pupil, (aside_um, centre_um), 2 * waves)
-    circles = _circles(even_count(waves), pupil.domain)
     top = waves / half
     x, y = (_turns(place * side * top) for place, side in ((x, pupil.half_x), (y, pupil.half_y)))
-    field = _at_points(x, y, wave, circles)
+    circles = circles_of(even_count(waves), pupil.domain, (CIRCLES, DIRECTIONS))
+    return energy_on_circles((x, y, wave), circles, top, pupil.half_x * pupil.half_y / light)
+
+
+def energy_on_circles(
+    waves: tuple[np.ndarray, np.ndarray, np.ndarray], circles: "Circles", top_um: float, scale: float, even: float = 0.0
+) -> EncircledLight:
+    """Return the energy about 0 of |Σ wave·exp(i(kx·x + ky·y))|²·scale per µm², up to the radius ``top_um``.
+
+    ``waves``: kx and ky times that radius, radians, and wave, (nodes,) each, all in single or in double precision.
+    ``even``: what is added to the square everywhere.
+    """
+    field = _at_points(*waves, circles)
     mean = np.add.reduceat(field.real**2 + field.imag**2, circles.starts, dtype=float) / circles.directions
-    flux = mean * circles.radius * (2 * pi * top**2 * pupil.half_x * pupil.half_y / light)
+    flux = (mean + even) * circles.radius * (2 * pi * top_um**2 * scale)
     series = _cosine_sums(flux) / flux.size
     series[0] /= 2
-    return EncircledLight(chebint(series, lbnd=-1) / 2, top)
+    return EncircledLight(chebint(series, lbnd=-1) / 2, top_um)
 
 
 def _cosine_sums(values: np.ndarray) -> np.ndarray:
@@ -181,22 +217,25 @@ class Circles:
     y: np.ndarray
 
 
-def _circles(waves: int, domain: PupilDomain) -> Circles:
-    return (_kept_circles if waves**2 <= MOST_KEPT else _kept_circles.__wrapped__)(waves, domain)
+def circles_of(waves: int, domain: PupilDomain, share: tuple[float, float] = (1.0, 1.0)) -> Circles:
+    """Return circles that resolve the light of a pupil up to where its edges' plane waves have turned so often.
+
+    ``share``: how many circles and directions there are of those that resolve their interference everywhere.
+    """
+    return (_kept_circles if waves**2 <= MOST_KEPT else _kept_circles.__wrapped__)(waves, domain, share)
 
 
 @lru_cache(maxsize=8)
-def _kept_circles(waves: int, domain: PupilDomain) -> Circles:
-    """Return circles that resolve the light of a pupil up to where its edges' plane waves have turned so often."""
-    count = even_count(CIRCLES * _harmonics(2 * pi * waves))
+def _kept_circles(waves: int, domain: PupilDomain, share: tuple[float, float]) -> Circles:
+    count = even_count(share[0] * _harmonics(2 * pi * waves))
     radius = (1 + np.cos(pi * (np.arange(count) + 0.5) / count)) / 2
     order = 4 * pi * waves * radius
-    half = np.ceil((DIRECTIONS * order + 8 * np.cbrt(order) + 8) / 4).astype(int) * 2
+    half = np.ceil((share[1] * order + 8 * np.cbrt(order) + 8) / 4).astype(int) * 2
     directions = half * len(domain.halves)
     starts = np.cumsum(directions) - directions
     angle = (np.arange(directions.sum()) - np.repeat(starts - 0.5, directions)) * np.repeat(pi / half, directions)
     reach = np.repeat(radius, directions)
-    x, y = (write_protect((reach * turn).astype(np.float32)) for turn in (np.sin(angle), np.cos(angle)))
+    x, y = (write_protect(reach * turn) for turn in (np.sin(angle), np.cos(angle)))
     return Circles(write_protect(radius), write_protect(directions), write_protect(starts), x, y)
 
 
@@ -211,13 +250,15 @@ def _turns(waves: np.ndarray) -> np.ndarray:
 
 
 def _at_points(kx: np.ndarray, ky: np.ndarray, wave: np.ndarray, circles: Circles) -> np.ndarray:
-    """Return Σ wave·exp(i(kx·x + ky·y)) at the points of circles, (points,) complex64."""
+    """Return Σ wave·exp(i(kx·x + ky·y)) at the points of circles, (points,), in the precision of the nodes."""
     import finufft
 
     # The relative error of all points together; chosen with the grid, so that the kernel stays within single precision.
+    error, grid = (SINGLE, FINE_GRID) if wave.dtype == np.complex64 else (DOUBLE, FINEST_GRID)
+    x, y = (place.astype(kx.dtype) for place in (circles.x, circles.y))
     # Nodes of one line are neighbours already, and need not be sorted.
-    how = {"eps": SINGLE, "upsampfac": FINE_GRID, "isign": 1, "nthreads": 1, "spread_sort": 0}
-    field: np.ndarray = finufft.nufft2d3(kx, ky, wave, circles.x, circles.y, **how)
+    how = {"eps": error, "upsampfac": grid, "isign": 1, "nthreads": 1, "spread_sort": 0}
+    field: np.ndarray = finufft.nufft2d3(kx, ky, wave, x, y, **how)
     return field
 
 

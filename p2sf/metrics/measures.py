@@ -23,7 +23,7 @@ from p2sf.figures.measures import PARTS, Energy, LineSpread, Mtf
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Alternatives
-from p2sf.metrics.energy import EncircledLight, LandingPoints, energy_of
+from p2sf.metrics.energy import EncircledLight, LandingPoints, energy_of, radius_of
 from p2sf.metrics.frequency_pupil import (
     WHOLE_PUPIL,
     FrequencyPupil,
@@ -51,7 +51,6 @@ FREQUENCIES = 257
 COLOURS = 21  # wavelengths of a continuous spectrum, as the colour PSF has them
 SHOWN = 4.0  # RMS radii, and periods of the cut-off, that a line spread is shown over
 POINTS = 513
-DIVIDED, DIVISIONS = 2, 64  # times, into parts: a step of 1/4096, over which the curve is a line to 1e-8
 
 
 @dataclass(frozen=True, eq=False)
@@ -244,7 +243,7 @@ def energy_in(parts: Parts, method: str, radius_um: ArrayLike | None = None, win
     largest = 0.0 if given is None or wings else float(given.max(initial=0.0))
     found = [energy_of(part.pupil, centre - part.shift_um, right - part.aside_um, largest) for part in parts]
     radius, fraction = _common_table(parts, found)
-    half, most = (_radius_of(parts, found, radius, fraction, part) for part in PARTS)
+    half, most = (radius_of(part, lambda given: _within(parts, found, given), radius, fraction) for part in PARTS)
     if given is not None:
         radius, fraction = given, _within(parts, found, given)
     departure = max((one.departure for one in found if isinstance(one, LandingPoints)), default=0.0)
@@ -278,24 +277,6 @@ def _common_table(parts: Parts, found: Found) -> tuple[np.ndarray, np.ndarray]:
         return found[0].table()
     radius = max((one.table()[0] for one in found), key=lambda radii: float(radii[-1]))
     return radius, _within(parts, found, radius)
-
-
-def _radius_of(parts: Parts, found: Found, radius: np.ndarray, fraction: np.ndarray, share: float) -> float:
-    """Return the smallest radius that holds a share of the light; NaN where the curve ends before it.
-
-    The step of the table that reaches it is divided again and again, each time at once.
-    """
-    above = np.flatnonzero(fraction >= share)
-    if not above.size:
-        return float("nan")
-    at = int(above[0])
-    low, high = radius[max(at - 1, 0)], radius[at]
-    for _ in range(DIVIDED):
-        radius = np.linspace(low, high, DIVISIONS + 1)
-        fraction = _within(parts, found, radius)
-        at = max(int(np.argmax(fraction >= share)), 1) if fraction[-1] >= share else DIVISIONS
-        low, high = radius[at - 1], radius[at]
-    return float(np.interp(share, fraction[at - 1 : at + 1], radius[at - 1 : at + 1]))
 
 
 @one_blas_thread

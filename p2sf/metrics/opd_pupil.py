@@ -1,8 +1,8 @@
 """Figures of a wavefront that is given as an array over the pupil: contrast, energy, spreads, terms (handbook 6.3).
 
 The transfer function is the autocorrelation of the pupil over its cells (Goodman 2005, eq. 6-28), by FFT; along an axis
-it is the sum of those of all rows or columns. Energy within a radius is the Hankel transform of its mean over all
-directions, E(R) = R ∫ OTF(ν)·J₁(2πR|ν|)/|ν| d²ν, which needs no window: it is that of all light.
+it is the sum of those of all rows or columns. Energy within a radius is that of the cells' field on circles, which
+needs no window: it is that of all light.
 """
 
 from dataclasses import dataclass, replace
@@ -14,11 +14,11 @@ from numpy.typing import ArrayLike
 from p2sf.arguments import check_arguments, number_list, real_array
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
 from p2sf.disc.domain import WHOLE, ClearNodes
-from p2sf.disc.quadrature import cell_areas
+from p2sf.disc.quadrature import cell_areas, even_count
 from p2sf.disc.zernike_terms import ZernikeOrder, zernike_terms, zernike_values
 from p2sf.errors import RequestError, SamplingError
-from p2sf.figures.hankel import HankelEnergy, hankel_energy
 from p2sf.figures.measures import PARTS, Energy, LineSpread, Mtf
+from p2sf.metrics.energy import EncircledLight, circles_of, energy_on_circles, radius_of
 from p2sf.metrics.line_sums import LagSums
 from p2sf.metrics.perfect import circle_contrast
 from p2sf.metrics.transfer import OtfSlice, spreads
@@ -123,8 +123,8 @@ class Pupil:
         most = 1 / (2 * self._step)
         given = np.linspace(0, most, RADII) if radius_um is None else np.abs(number_list("radius_um", radius_um))
         self._check_reach("radius_um", given, most)
-        table = np.linspace(0, most, RADII)
-        half, most = (self._energy.radius_of(part, table) for part in PARTS)
+        within, table = self._energy.within, np.linspace(0, most, RADII)
+        half, most = (radius_of(part, within, table, within(table)) for part in PARTS)
         y, x = self._along_y_centroid, self._along_x_centroid
         fraction = np.clip(self._energy.within(given), 0.0, 1.0)
         made = given, fraction, y, half, most, self._rms_um, METHOD
@@ -241,14 +241,16 @@ class Pupil:
         return factor
 
     @cached_property
-    def _energy(self) -> HankelEnergy:
-        """Return the energy about the centroid, of the autocorrelation of all cells."""
-        from scipy import fft
-
-        size = 2 * len(self._field)
-        table = fft.ifft2(np.abs(fft.fft2(self._field, (size, size))) ** 2)
-        table[0, 0] = self._light
-        return hankel_energy(table, self._step, self._along_x_centroid, self._along_y_centroid)
+    def _energy(self) -> EncircledLight:
+        """Return the energy about the centroid up to where the PSF of the cells repeats itself."""
+        clear = self._light_of_cells > 0
+        place = np.pi * centres(len(clear)) * len(clear) / 2
+        x, y = (turns[clear] for turns in np.meshgrid(place, place))
+        top, field = 1 / (2 * self._step), self._field[clear]
+        wave = field * np.exp(1j * (x * self._along_x_centroid + y * self._along_y_centroid) / top)
+        circles = circles_of(even_count(float(np.hypot(x, y).max()) / (2 * np.pi)), WHOLE)
+        even = self._light - float(np.vdot(field, field).real)  # of cells that let a part of their light through
+        return energy_on_circles((x, y, wave), circles, top, self._step**2 / self._light, even)
 
     def _check_reach(self, name: str, values: np.ndarray, most: float) -> None:
         if np.abs(values).max(initial=0.0) > most * (1 + 1e-9):

@@ -116,6 +116,22 @@ def test_cells_with_an_amplitude_are_summed_one_by_one():
     np.testing.assert_allclose(found.sagittal, np.abs(sums) / abs(sums[0]), atol=1e-12)
 
 
+def test_energy_of_cells_is_the_sum_over_all_pairs():
+    """Each pair of cells ν apart brings R·J₁(2πR|ν|)/|ν| of its light within R; cells beyond the disc count too."""
+    rng = np.random.default_rng(3)
+    light, wave = np.zeros((SIZE, SIZE)), rng.uniform(-0.2, 0.2, (SIZE, SIZE))
+    light[rng.integers(0, SIZE, (2, 60)).tolist()] = 1
+    light[[0, 0, -1, -1], [0, -1, 0, -1]] = 1
+    pupil, open_, step = p2sf.Pupil(wave, NA, NM, light), light > 0, 2 * PER_UM / SIZE
+    found = pupil.encircled_energy(1 / (2 * step) * np.array([0.05, 0.3, 0.7, 1.0]))
+    x, y = PER_UM * X[open_], PER_UM * Y[open_]
+    field = np.exp(2j * pi * (wave[open_] + x * found.centroid_x_um + y * found.centroid_um))
+    apart = np.hypot(x[:, None] - x, y[:, None] - y) + 1e-12
+    for radius, share in zip(found.radius_um, found.fraction, strict=True):
+        within = (field @ (j1(2 * pi * radius * apart) / apart) @ field.conj()).real * radius * step**2
+        assert share == pytest.approx(within / light.sum(), abs=1e-9)
+
+
 def test_beyond_where_cells_repeat_the_psf_is_refused():
     pupil = p2sf.Pupil(np.zeros((32, 32)), NA, NM)
     for call in (pupil.encircled_energy, pupil.line_spread):
