@@ -13,8 +13,8 @@ ROOT = Path(__file__).parents[1]
 MODULES = tuple(module_paths(ROOT))
 # A folder imports from those on the lines above its own and from itself; those of the first line from each other too.
 LAYERS = (
-    "p2sf.conventions p2sf.messages p2sf.errors p2sf.arguments p2sf.parameters p2sf.spans p2sf.threads p2sf.version "
-    "p2sf.html p2sf.named_arrays p2sf.cluster",
+    "p2sf.conventions p2sf.messages p2sf.errors p2sf.arguments p2sf.parameters p2sf.spans p2sf.threads "
+    "p2sf.version p2sf.choice p2sf.html p2sf.named_arrays p2sf.cluster",
     "p2sf.files p2sf.glass p2sf.colour p2sf.disc",
     "p2sf.lens",
     "p2sf.paraxial",

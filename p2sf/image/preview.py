@@ -1,10 +1,12 @@
 """A coarse picture shown immediately, while the planned one is computed."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from math import inf
 
 import numpy as np
 
+from p2sf.choice import first_within
 from p2sf.errors import GeometryError
 from p2sf.image.binning import block_means, times_to_fit
 from p2sf.image.form import Forming, form_image, plan_lattice
@@ -57,15 +59,18 @@ def preview_plan(camera: Lens, scene: Scene) -> Plan:
     where the sum would take seconds, and where that fit does not describe the pencil.
     """
     planned = plan_by_waves(camera, scene)
-    side = wave_side(planned)
-    for most, fewer in WAVE_COUNTS:
-        if side <= most:
-            return replace(planned, counts=fewer)
+    counts, part = _affordable(WAVE_COUNTS, wave_side(planned))
+    if part <= 1:
+        return replace(planned, counts=counts)
     if camera.mask.phased:  # which rays do not show
         return replace(planned, counts=(1, 1))
     by_rays = replace(planned, recipe=BY_RAYS)
-    size = 2 * _edge_half(by_rays)[1] + 1
-    return replace(by_rays, counts=next((fewer for most, fewer in RAY_COUNTS if size <= most), (1, 1)))
+    return replace(by_rays, counts=_affordable(RAY_COUNTS, 2 * _edge_half(by_rays)[1] + 1)[0])
+
+
+def _affordable(limits: Sequence[tuple[int, tuple[int, int]]], side: float) -> tuple[tuple[int, int], float]:
+    """Return the most kernels whose sides are that long, else the fewest; and which part of their limit that is."""
+    return first_within(((counts, side / most) for most, counts in limits), 1.0)
 
 
 def plan_by_waves(camera: Lens, scene: Scene) -> Plan:

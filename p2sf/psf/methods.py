@@ -3,7 +3,7 @@
 How the error is predicted is described in `prediction`. See handbook 5.6.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import partial
 from math import hypot, inf
@@ -11,6 +11,7 @@ from time import perf_counter
 
 import numpy as np
 
+from p2sf.choice import first_within
 from p2sf.conventions import UM_PER_MM
 from p2sf.disc.mask import PupilMask
 from p2sf.disc.quadrature import SETTLED_TOLERANCE
@@ -302,41 +303,38 @@ def _sphere_is_affordable(lens: Lens, source: Source, clip: bool, window: tuple[
 
 def _choose_plane(lens: Lens, source: Source, clip: bool, rays: Rays, steep: Steepness, allowed: float) -> Choice:
     """Return the cheapest method of plane waves whose predicted error is allowed, from the rays of the first level."""
+    tried = _plane_choices(lens, source, clip, rays, steep)
+    choice, _ = first_within(((each, each.predicted_error) for each in tried), allowed)
+    return replace(choice, allowed_error=allowed)
+
+
+def _plane_choices(lens: Lens, source: Source, clip: bool, rays: Rays, steep: Steepness) -> Iterator[Choice]:
+    """Yield every method of plane waves with its predicted error, the cheapest first, each with the errors before."""
     xi, eta, weight = level_rays(levels_for(lens)[0])
-    if not rays.passed.all():
-        # Only rays represent an edge; six coefficients and fits do not.
-        lost = int((~rays.passed).sum())
-        return _by_rays(Choice("traced", EDGE_ERROR, 0, lost, xi.size, allowed), EDGE_ERROR)
-    c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
-    mask = mask_seen(lens, source)
-    checks = None if mask.clear else trace_check_rays(lens, source, mask)
-    seidel = (
-        _seidel_error(c, (xi, eta, weight), rays, checks, mask) if reason_against_coefficients(lens) is None else inf
-    )
-    tried = Choice("seidel", seidel, 6, tried_rays=xi.size, allowed_error=allowed, seidel_error=seidel)
-    if seidel <= allowed:
-        return tried
-    for level in levels_for(lens)[: len(QUICK_LEVELS)]:
-        found = fit_rays(rays, level, level.rays, steep)
-        found = found if checks is None else behind_mask(found, checks)
-        fitted = predicted_error(found.error_waves, "fitted")
-        if fitted <= allowed:
+    tried, by_rays = Choice("", inf, 0, int((~rays.passed).sum()), xi.size), EDGE_ERROR
+    if rays.passed.all():  # only rays represent an edge; six coefficients and fits do not
+        by_rays = TRACED_ERROR
+        c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
+        mask = mask_seen(lens, source)
+        checks = None if mask.clear else trace_check_rays(lens, source, mask)
+        against = reason_against_coefficients(lens)
+        error = _seidel_error(c, (xi, eta, weight), rays, checks, mask) if against is None else inf
+        tried = replace(tried, seidel_error=error)
+        yield replace(tried, method="seidel", numbers=6, predicted_error=error)
+        for level in levels_for(lens)[: len(QUICK_LEVELS)]:
+            found = fit_rays(rays, level, level.rays, steep)
+            found = found if checks is None else behind_mask(found, checks)
+            error = predicted_error(found.error_waves, "fitted")
+            tried = replace(tried, fitted_error=error, fitted_numbers=level.numbers)
             own = None if clip or checks is not None else found
-            tried = replace(tried, method="fitted", predicted_error=fitted, fitted_error=fitted, fit=own)
-            return replace(tried, numbers=level.numbers)
-    return _by_rays(replace(tried, fitted_error=fitted, fitted_numbers=level.numbers), TRACED_ERROR)
+            yield replace(tried, method="fitted", numbers=level.numbers, predicted_error=error, fit=own)
+    yield replace(tried, method="traced", predicted_error=by_rays)
+    yield replace(tried, method="huygens", predicted_error=SETTLED_TOLERANCE**2)
 
 
 def _check_min_r2(min_r2: float, largest: float = 1.0) -> None:
     if not -inf < min_r2 <= largest:
         raise RequestError("{parameter} is {value:g}; give the R² to hold, below 1", parameter="min_r2", value=min_r2)
-
-
-def _by_rays(tried: Choice, error: float) -> Choice:
-    """Return `traced` if its error is allowed, else the reference."""
-    if error <= tried.allowed_error:
-        return replace(tried, method="traced", predicted_error=error, numbers=0)
-    return replace(tried, method="huygens", predicted_error=SETTLED_TOLERANCE**2, numbers=0)
 
 
 def seidel_error(lens: Lens, source: Source, c: Coefficients) -> float:

@@ -20,7 +20,7 @@ from p2sf.scene.planning.cost import Work, predicted_cost
 from p2sf.scene.planning.plan import _colour_errors, plan
 from p2sf.scene.planning.reference import reference_kernel
 from p2sf.scene.planning.sharing import REMAINDER, TARGET_ERROR, fewer_nodes, share_pupils
-from p2sf.scene.planning.study import SAMPLING_ERRORS, SAMPLINGS, Place, Study, distance, first_allowed
+from p2sf.scene.planning.study import SAMPLING_ERRORS, SAMPLINGS, Place, Study, distance
 from p2sf.scene.planning.table import plan_rows
 from p2sf.scene.planning.verify import planned_kernel, verify
 from p2sf.scene.scene import Channel, Scene
@@ -161,44 +161,6 @@ def test_planning_interpolates_pupils_as_well_as_it_says():
     places = [Place(0.5, 0.9, float(v), wave) for v in shared.scene.vergences(4) for wave in (0.53, 0.545)]
     found = [distance(one, other) for one, other in zip(*(s.kernels(places) for s in (shared, own)), strict=True)]
     assert 0 < max(found) <= shared.table_error
-
-
-@pytest.mark.parametrize("start", [0, 2])
-def test_the_first_allowed_choice_holds_at_every_place_in_any_order(start):
-    """Errors that fall as 1/size, not as its square: the law only guides the search."""
-    asked = []
-    places = [1.0, 2.0, 8.0, 3.0]
-
-    def measure(tries):
-        asked.append(tries)
-        return [places[k] / (number + 1) for number, k in tries]
-
-    assert first_allowed(range(1, 6), measure, 4, 2.0, start) == (3, 2.0)
-    tried = [pair for tries in asked for pair in tries]
-    assert len(set(tried)) == len(tried)  # nothing is measured twice
-    assert first_allowed(range(1, 3), measure, 4, 2.0) == (1, 4.0)  # none holds: the last, with its own largest error
-
-
-def test_by_the_law_of_errors_few_choices_are_tried():
-    sizes = range(1, 200)
-    for first in range(1, 200, 7):
-        asked = []
-
-        def measure(tries, first=first, asked=asked):
-            asked.extend(tries)
-            return [(first / sizes[number]) ** 2 for number, _ in tries]
-
-        assert first_allowed(sizes, measure, 1, 1.0, 3) == (first - 1, 1.0)
-        assert len(asked) <= 3
-
-
-def test_the_first_of_choices_is_found_whatever_their_errors():
-    for first in range(16):
-
-        def measure(tries, first=first):
-            return [1.0 if number < first else 0.0 for number, _ in tries]
-
-        assert first_allowed(range(1, 17), measure, 1, 0.5, 3)[0] == first
 
 
 @pytest.mark.parametrize("lens", ["double_gauss_28", "tessar"])

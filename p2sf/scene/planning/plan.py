@@ -4,12 +4,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache, partial
 from math import hypot
-from operator import attrgetter
 from os import PathLike
 
 import numpy as np
 
 from p2sf.arguments import check_arguments
+from p2sf.choice import Tries, first_allowed, first_within
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
 from p2sf.pixel_kernels.channel import Colour, Kernels, Recipe
@@ -42,9 +42,7 @@ from p2sf.scene.planning.study import (
     Place,
     Sampling,
     Study,
-    Tries,
     distance,
-    first_allowed,
     weighted_sum,
 )
 from p2sf.scene.scene import NOISE_PART, Channel, Scene
@@ -235,13 +233,11 @@ def _method(study: Study, budget: float) -> tuple[Recipe, Decision]:
     """
     if study.table:
         like = study.table.like
-        numbers, residual = like.numbers, float(like.residual_waves.max())
+        numbers, error = like.numbers, SAFETY * from_phase(float(like.residual_waves.max()))
     else:
-        allowed = SHARES["method"] * budget
-        held = (level for level in study.levels if SAFETY * from_phase(study.residual(level)) <= allowed)
-        level = min(next(held, study.level), study.level, key=attrgetter("numbers"))
-        numbers, residual = level.numbers, study.residual(level)
-    error = SAFETY * from_phase(residual)
+        levels = study.levels[: study.levels.index(study.level) + 1]
+        errors = ((level.numbers, SAFETY * from_phase(study.residual(level))) for level in levels)
+        numbers, error = first_within(errors, SHARES["method"] * budget)
     why = Message("the phase that {numbers} numbers leave over is that small", numbers=numbers)
     choice = Message("{method}, {count} numbers", method="fitted", count=numbers)
     return Recipe("fitted", numbers), Decision(Message("method"), choice, why, error, "method")
@@ -286,16 +282,15 @@ def _sampling(study: Study, budget: float) -> tuple[Sampling, Decision]:
 
     Errors of sampling hardly depend on the pupil, so that none are measured here.
     """
-    allowed = SHARES["sampling"] * budget
-    number = next((k for k, error in enumerate(SAMPLING_ERRORS) if error <= allowed), len(SAMPLINGS) - 1)
-    fineness, margin = SAMPLINGS[number]
+    chosen, error = first_within(zip(SAMPLINGS, SAMPLING_ERRORS, strict=True), SHARES["sampling"] * budget)
+    fineness, margin = chosen
     why = Message(
         "pixels of {pixel:g} µm average finer fringes; the window has a margin of {margin:.0%}",
         pixel=study.scene.sensor.pixel_um,
         margin=margin,
     )
     choice = Message("λ/2NA/{fineness:g}", fineness=fineness)
-    return SAMPLINGS[number], Decision(Message("sampling"), choice, why, SAMPLING_ERRORS[number], "sampling")
+    return chosen, Decision(Message("sampling"), choice, why, error, "sampling")
 
 
 def _field(study: Study, budget: float, colours: Sequence[Colour]) -> tuple[tuple[int, int], Decision]:

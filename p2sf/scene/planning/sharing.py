@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from p2sf.choice import first_within
 from p2sf.pixel_kernels.pupil_table import chebyshev, pupil_table
 from p2sf.scene.planning.adaptive_table import COUNTS, adaptive_table, grid_of
 from p2sf.scene.planning.study import Study
@@ -43,4 +44,5 @@ def fewer_nodes(nodes: Sequence[float], width: float) -> int:
     What n of them leave is a polynomial of degree n and above, which falls as the nth power of the width.
     """
     part = width / (nodes[-1] - nodes[0]) if width else 0.0
-    return next(count for count in (1, *COUNTS) if count >= len(nodes) or part**count < REMAINDER)
+    errors = ((count, part**count if count < len(nodes) else 0.0) for count in (1, *COUNTS))
+    return first_within(errors, REMAINDER)[0]

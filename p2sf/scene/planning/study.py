@@ -7,11 +7,12 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import islice
-from math import ceil, sqrt
+from math import ceil
 from typing import NamedTuple
 
 import numpy as np
 
+from p2sf.choice import first_within
 from p2sf.conventions import UM_PER_MM
 from p2sf.disc.mask_nodes import throughput
 from p2sf.lens.lens import Lens
@@ -147,7 +148,7 @@ class Study:
     @cached_property
     def level(self) -> Level:
         """Return the smallest fit with a residual below CONVERGED_WAVES at the ends of field, depth and colour."""
-        return next((level for level in self.levels if self.residual(level) < CONVERGED_WAVES), self.levels[-1])
+        return first_within(((level, self.residual(level)) for level in self.levels), CONVERGED_WAVES)[0]
 
     @property
     def levels(self) -> tuple[Level, ...]:
@@ -289,47 +290,6 @@ def _shared_sizes(halves: np.ndarray, samples: int) -> np.ndarray:
             widest = size
         shared[alike] = widest
     return shared
-
-
-Tries = Sequence[tuple[int, int]]
-NEGLIGIBLE = 0.3  # of the largest error of a choice: places with less are not tried again
-
-
-def first_allowed(
-    sizes: Sequence[float], measure: Callable[[Tries], Sequence[float]], places: int, allowed: float, start: int = 0
-) -> tuple[int, float]:
-    """Return the first of several choices whose error is allowed at all places, else the last; and its error.
-
-    ``measure`` gives the errors of (choice, index of a point), which decrease from choice to choice, about as the
-    square of 1/``sizes``. By that law the next choice is found from the error of the last one; only measured errors
-    decide. The first choice, ``start``, is tried at the first place, where the error is probably largest; what holds
-    there is tried at all places, and if not all hold, the next ones where the error was largest, and so on.
-    """
-    errors: dict[tuple[int, int], float] = {}
-
-    def worst(choice: int, where: Iterable[int]) -> float:
-        tries = [(choice, k) for k in where]
-        missing = [one for one in tries if one not in errors]
-        errors.update(zip(missing, measure(missing) if missing else (), strict=True))
-        return max(errors[one] for one in tries)
-
-    last, low, choice = len(sizes) - 1, 0, start
-    hardest, likely = 0, list(range(places))
-    while True:
-        error = worst(choice, [hardest])
-        enough = sizes[choice] * sqrt(error / allowed)
-        by_law = max(low, next((k for k, size in enumerate(sizes) if size >= enough), last))
-        if error > allowed and choice < last:
-            low = choice + 1
-            choice = max(by_law, low)
-        elif by_law < choice:
-            choice = by_law
-        else:
-            error = worst(choice, likely)
-            if error <= allowed or choice == last:
-                return choice, error
-            hardest = max(likely, key=lambda k: errors[choice, k])
-            likely = [k for k in likely if errors[choice, k] >= NEGLIGIBLE * error]
 
 
 def distance(kernel: np.ndarray, reference: np.ndarray) -> float:
