@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import ceil, inf, pi, sqrt
+from math import ceil, inf, sqrt
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
@@ -101,13 +101,13 @@ class Waves:
 
     def _moments_at(self, x: float, y: float, nodes: slice) -> np.ndarray:
         """Return the sums over nodes of their waves at a point times 1, fx, fy, fx², fx·fy and fy², complex, (6,)."""
-        fx, fy, images = self.fx[nodes], self.fy[nodes], self.domain.images
+        fx, fy = self.fx[nodes], self.fy[nodes]
         moments = np.stack([np.ones_like(fx), fx, fy, fx * fx, fx * fy, fy * fy])
-        along = self.amplitude[nodes] * np.exp((2j * pi * y) * fy)
-        turn = (2j * pi * x) * fx
-        sums = [_products(moments, along * np.exp(image * turn)) * image**ODD for image in images]
-        mean: np.ndarray = sum(sums) / len(images)
-        return mean
+        cosine, sine = cosine_sine(fy * y, np.float64)
+        along = self.amplitude[nodes] * (cosine + 1j * sine)
+        even, odd = (_products(moments, along * part) for part in cosine_sine(fx * x, np.float64))
+        sums: np.ndarray = np.where(ODD, 1j * odd, even) if self.domain.symmetric else even + 1j * odd
+        return sums
 
     def near(self, x: float, y: float) -> tuple[float, float, float, float]:
         """Return the intensity at a point, Newton's step from there in x and y, and its expected gain.
