@@ -68,8 +68,10 @@ def _even_nufft(amplitude: np.ndarray, kx: np.ndarray, ky: np.ndarray, x: np.nda
     About x = 0 the images' sum is the mirror image of that of the nodes. x and −x are both samples of an odd number.
     Among many samples, twice the nodes over |x| take less time.
     """
+    if not x.any():  # where the images have the waves of the nodes
+        return _nufft(amplitude, kx, ky, x, y)
     middle, nodes = x.size // 2, amplitude.shape[-1]
-    about_0 = x[middle] == 0 and x.size > 1
+    about_0 = x[middle] == 0
     if about_0 and x.size * y.size < SAMPLES_OF_NODE * nodes:
         wide = x if x.size % 2 else np.append(x, -x[0])
         field = _nufft(amplitude, kx, ky, wide, y)
