@@ -11,16 +11,18 @@ import re
 import stat
 import tomllib
 import zipfile
-from logging import NullHandler
 from math import prod
 from os import PathLike
-from typing import Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
 from p2sf.files.atomic import DAMAGED, NO_FILE
 from p2sf.files.reasons import ContentRefusedError, FileRefusedError, OversizedError
 from p2sf.messages import Message
+
+if TYPE_CHECKING:
+    from logging import Logger
 
 LARGEST = 200_000_000  # bytes read or unpacked at once: any machine has room for them, and reads them in a second
 PER_BYTE = 20  # bytes or samples that one byte of a large file may unpack to: photos have 2, charts 10
@@ -34,7 +36,6 @@ LONGEST_SIDE = 65_535  # pixels, as in JPEG
 NPY = b"\x93NUMPY\x01\x00"  # first of an array of numbers: the head of other versions may have any length
 MOST_DOTS = 500  # in a line, between parts of a key: a hundred times more than any file needs
 DOT = re.compile(r"(?<!\d)\.|\.(?!\d)|\.\d+\.")  # but not that of a number
-SILENT = NullHandler()  # tifffile logs every defect of a file; here it is one exception
 
 PathName = str | PathLike[str]
 
@@ -168,6 +169,14 @@ def read_array(path: PathName) -> np.ndarray:
     return found
 
 
+def silence(log: "Logger") -> None:
+    """Keep a library from printing what it logs: tifffile does every defect of a file, which here is one exception."""
+    from logging import NullHandler
+
+    if not log.handlers:
+        log.addHandler(NullHandler())
+
+
 def first_page(path: PathName, begins: str = "") -> tuple[np.ndarray, str]:
     """Return the samples of the first page of a TIFF and its description.
 
@@ -177,7 +186,7 @@ def first_page(path: PathName, begins: str = "") -> tuple[np.ndarray, str]:
     """
     import tifffile
 
-    tifffile.logger().addHandler(SILENT)
+    silence(tifffile.logger())
     try:
         with open_file(path) as stream, tifffile.TiffFile(stream) as file:
             page, size = file.pages.first, file.filehandle.size

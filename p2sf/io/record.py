@@ -1,6 +1,5 @@
 """The facts that a file carries beside its numbers: lens, setup, units, versions, and those of a PSF."""
 
-import hashlib
 import json
 from collections.abc import Mapping
 from dataclasses import fields
@@ -86,9 +85,11 @@ def mask_numbers(mask: PupilMask) -> dict:
 @lru_cache(maxsize=64)
 def lens_hash(lens: Lens) -> str:
     """Return the SHA-256 of the lens written as TOML: two equal prescriptions have one hash."""
+    from hashlib import sha256
+
     from p2sf.lensfile.toml.lens import lens_to_toml
 
-    return hashlib.sha256(lens_to_toml(lens).encode()).hexdigest()
+    return sha256(lens_to_toml(lens).encode()).hexdigest()
 
 
 def common(records: list[dict]) -> dict:

@@ -12,7 +12,7 @@ import numpy as np
 
 from p2sf.errors import P2SFError
 from p2sf.files.atomic import DAMAGED
-from p2sf.files.reading import SILENT, open_file, parse_json
+from p2sf.files.reading import open_file, parse_json, silence
 from p2sf.io.png_text import text_in
 from p2sf.messages import Message
 from p2sf_explorer.state.state import State
@@ -111,7 +111,7 @@ def _in_tiff(path: PathLike) -> Any:
     """Return the state in a TIFF's description, or in the Info of ImageJ's."""
     import tifffile
 
-    tifffile.logger().addHandler(SILENT)
+    silence(tifffile.logger())
     with tifffile.TiffFile(path) as file:
         page: Any = file.pages.first
         told = (file.imagej_metadata or {}).get("Info", "") if file.is_imagej else page.description
