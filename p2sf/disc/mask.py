@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from functools import cached_property, lru_cache
 from math import acos, atan2, cos, hypot, inf, pi, radians, sin, sqrt
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -378,6 +378,21 @@ class PupilMask:
         """Return the edges of the blades; empty for a round stop."""
         return tuple(BladeEdge(angle + pi / self.blades, self.blades, self.roundness) for angle in self.corner_angles)
 
+    @property
+    def bounds(self) -> "tuple[Inside, ...]":
+        """Return within what the mask is open but for obscuration and vanes: the blades, or the stop's rim."""
+        return self.edges or (WHOLE_STOP,)
+
+
+class Inside(Protocol):
+    """A part of the stop within an edge, all of which is seen from the points asked about."""
+
+    def depth(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
+        """Return how far inside the edge points lie, negative outside."""
+
+    def distance(self, xi: np.ndarray, eta: np.ndarray, sine: np.ndarray, cosine: np.ndarray) -> np.ndarray:
+        """Return the distance of inner points (ξ, η) from the edge along the directions (sine, cosine)."""
+
 
 @dataclass(frozen=True)
 class Disc:
@@ -386,6 +401,11 @@ class Disc:
     xi: float
     eta: float
     radius: float
+
+    @property
+    def middle(self) -> tuple[float, float]:
+        """Return its centre."""
+        return self.xi, self.eta
 
     @property
     def centred(self) -> bool:
@@ -408,6 +428,10 @@ class Disc:
         along = across * sine + up * cosine
         half = np.sqrt(np.maximum(along**2 + self.radius**2 - across * across - up * up, 0))
         return -half - along, half - along
+
+    def distance(self, xi: np.ndarray, eta: np.ndarray, sine: np.ndarray, cosine: np.ndarray) -> np.ndarray:
+        """Return the distance of inner points (ξ, η) from its edge along the directions (sine, cosine)."""
+        return self.chord(xi, eta, sine, cosine)[1]
 
     def outline(self, theta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return ξ and η of its edge in directions from its centre, radians from +η towards +ξ."""
@@ -561,3 +585,4 @@ def _check_within(radius: float, x: float, y: float) -> None:
 
 
 CLEAR = PupilMask()
+WHOLE_STOP = Disc(0.0, 0.0, 1.0)

@@ -6,6 +6,7 @@ integrated along and across itself. So no edge falls between nodes, and the sums
 Amplitude and phase are factors at the nodes (handbook 4.6).
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
@@ -15,14 +16,15 @@ import numpy as np
 
 from p2sf.conventions import write_protect
 from p2sf.disc.domain import ClearNodes, Piece, PupilDomain
-from p2sf.disc.mask import PupilMask
-from p2sf.disc.quadrature import MOST_KEPT, gauss_legendre
+from p2sf.disc.mask import Inside, PupilMask
+from p2sf.disc.quadrature import MOST_KEPT, gauss_legendre, ring_count
 from p2sf.errors import GeometryError
 
 GAUSS_EXCESS = 1.5  # Gauss–Legendre nodes per uniform direction for the same harmonics: some π/2
 EDGE_NODES = 5  # more in each sector, for an outline that is smooth but not a circle
 FEWEST_ACROSS = 4  # nodes across a vane, or across a part of it between corners
 UPRIGHT = 1e-9  # sine of the angle of a vane along η
+TRIED_ALONG = 24  # points of a vane at which crossings with a hole are sought
 THINNEST = 1e-12  # share of the disc that counts as zero
 
 
@@ -40,7 +42,7 @@ def _kept_nodes(mask: PupilMask, radial: int, angular: int) -> ClearNodes:
     if not mask.disc.centred:
         pieces.append(_dark_disc(mask, radial, angular))
     for angle in mask.vane_angles:
-        pieces += _vane(mask, angle, radial)
+        pieces += vane_pieces(mask, angle, radial, mask.bounds)
     return join_pieces(mask, pieces, mask.domain)
 
 
@@ -56,11 +58,6 @@ def join_pieces(mask: PupilMask, pieces: list[Piece], domain: PupilDomain) -> Cl
     path = write_protect(mask.path_um(xi, eta)) if mask.phased else 0.0
     xi, eta, weight = map(write_protect, (xi, eta, area / share))
     return ClearNodes(xi, eta, weight, share, amplitude, path, domain)
-
-
-def ring_count(radial: int, width: float) -> int:
-    """Return the number of radii for a part of the radius if the whole radius has ``radial``."""
-    return ceil((radial - 4) * width) + 4 if radial > 4 else radial
 
 
 def _rings(mask: PupilMask, radial: int, angular: int) -> Piece:
@@ -93,7 +90,7 @@ def _dark_disc(mask: PupilMask, radial: int, angular: int) -> Piece:
     angles = [angle for edge in mask.edges for angle in edge.crossings(disc)]
     theta, step = _directions(angles or [0.0], mask.domain, angular)
     one, sine, cosine = np.ones_like(theta), np.sin(theta), np.cos(theta)
-    outer = np.minimum(disc.radius, exit_distance(mask, disc.xi * one, disc.eta * one, sine, cosine))
+    outer = np.minimum(disc.radius, exit_distance(mask.bounds, disc.xi * one, disc.eta * one, sine, cosine))
     xi, eta, area = _polar(theta, step, 0 * one, outer, radial)
     return disc.xi + xi, disc.eta + eta, -area
 
@@ -112,22 +109,15 @@ def _directions(angles: list[float], domain: PupilDomain, angular: int) -> tuple
 
 def outline_radius(mask: PupilMask, theta: np.ndarray) -> np.ndarray:
     """Return the radius of the rim or iris in directions from +η towards +ξ."""
-    return exit_distance(mask, np.zeros_like(theta), np.zeros_like(theta), np.sin(theta), np.cos(theta))
+    return exit_distance(mask.bounds, np.zeros_like(theta), np.zeros_like(theta), np.sin(theta), np.cos(theta))
 
 
-def exit_distance(mask: PupilMask, xi: np.ndarray, eta: np.ndarray, sine: np.ndarray, cosine: np.ndarray) -> np.ndarray:
-    """Return the distance of inner points from the rim or iris along the directions (sine, cosine)."""
-    if mask.iris:
-        nearest: np.ndarray = np.min([edge.distance(xi, eta, sine, cosine) for edge in mask.edges], axis=0)
-        return nearest
-    return circle_exit(1.0, xi, eta, sine, cosine)
-
-
-def circle_exit(radius: float, xi: np.ndarray, eta: np.ndarray, sine: np.ndarray, cosine: np.ndarray) -> np.ndarray:
-    """Return the distance of points inside a circle about the centre from it along the directions."""
-    along = xi * sine + eta * cosine
-    distance: np.ndarray = np.sqrt(np.maximum(along**2 + radius**2 - xi * xi - eta * eta, 0)) - along
-    return distance
+def exit_distance(
+    bounds: Sequence[Inside], xi: np.ndarray, eta: np.ndarray, sine: np.ndarray, cosine: np.ndarray
+) -> np.ndarray:
+    """Return the distance of inner points from the nearest of several edges along the directions (sine, cosine)."""
+    nearest: np.ndarray = np.min([edge.distance(xi, eta, sine, cosine) for edge in bounds], axis=0)
+    return nearest
 
 
 def _polar(theta: np.ndarray, step: np.ndarray, inner: np.ndarray, outer: np.ndarray, radial: int) -> Piece:
@@ -139,12 +129,24 @@ def _polar(theta: np.ndarray, step: np.ndarray, inner: np.ndarray, outer: np.nda
     return (rho * np.sin(theta)).ravel(), (rho * np.cos(theta)).ravel(), area.ravel()
 
 
-def _vane(mask: PupilMask, angle: float, radial: int) -> list[Piece]:
-    """Return the pieces of one vane, with negative areas, outside the obscuration and the other vanes."""
-    return [piece for ends in zip(*_across(mask, angle), strict=True) for piece in _strips(mask, angle, *ends, radial)]
+def vane_pieces(
+    mask: PupilMask,
+    angle: float,
+    radial: int,
+    bounds: Sequence[Inside],
+    shadows: Sequence[Inside] = (),
+    corners: Sequence[float] = (),
+) -> list[Piece]:
+    """Return the pieces of one vane, with negative areas, outside the obscuration and the other vanes.
+
+    It ends at the nearest of ``bounds`` and begins where it leaves ``shadows``, which it must not meet farther out.
+    ``corners``: of these, distances from the vane's middle line. Raises GeometryError where that is not so.
+    """
+    ends = zip(*_across(mask, angle, corners), strict=True)
+    return [piece for pair in ends for piece in _strips(mask, angle, pair, radial, (bounds, shadows))]
 
 
-def _across(mask: PupilMask, angle: float) -> tuple[np.ndarray, np.ndarray]:
+def _across(mask: PupilMask, angle: float, others: Sequence[float]) -> tuple[np.ndarray, np.ndarray]:
     """Return the limits of the intervals across a vane within which both of its ends are smooth."""
     half, disc = mask.vane_width, mask.disc
     meeting = _inner_radius(mask) * (sin(pi / mask.vanes) if mask.vanes > 2 else 1.0)
@@ -152,13 +154,13 @@ def _across(mask: PupilMask, angle: float) -> tuple[np.ndarray, np.ndarray]:
     # A vane that meets its neighbours outside the obscuration starts with a corner on its centre line; one on the line
     # ξ = 0 may be halved by that line.
     middle = [0.0] if half > meeting or abs(sin(angle)) < UPRIGHT else []
-    beside = [] if disc.centred else corners_of_disc(mask, angle)
-    breaks = [x for x in (*middle, meeting, -meeting, *corners, *beside) if abs(x) < half]
+    beside = [] if disc.centred else _corners_of_disc(mask, angle)
+    breaks = [x for x in (*middle, meeting, -meeting, *corners, *beside, *others) if abs(x) < half]
     ends = np.unique(np.round([-half, *breaks, half], 14))
     return ends[:-1], ends[1:]
 
 
-def corners_of_disc(mask: PupilMask, angle: float) -> list[float]:
+def _corners_of_disc(mask: PupilMask, angle: float) -> list[float]:
     """Return the offsets from a vane's centre line where an obscuration ends or meets blades or the vane's start."""
     disc = mask.disc
     middle = disc.xi * cos(angle) - disc.eta * sin(angle)
@@ -173,22 +175,50 @@ def corners_of_disc(mask: PupilMask, angle: float) -> list[float]:
     return found
 
 
-def _strips(mask: PupilMask, angle: float, low: float, high: float, radial: int) -> list[Piece]:
+def _strips(
+    mask: PupilMask,
+    angle: float,
+    interval: tuple[float, float],
+    radial: int,
+    edges: tuple[Sequence[Inside], Sequence[Inside]],
+) -> list[Piece]:
     """Return the nodes of one interval across a vane: beyond the obscuration, and before a decentred one."""
-    sine, cosine = sin(angle), cos(angle)
+    sine, cosine, (low, high), (bounds, shadows) = sin(angle), cos(angle), interval, edges
     node, weight = gauss_legendre(FEWEST_ACROSS + ceil(radial * (high - low) / 2))
     aside = (low + high + (high - low) * node) / 2
-    foot_xi, foot_eta = aside * cosine, -aside * sine
+    foot = aside * cosine, -aside * sine
     start = np.abs(aside) / tan(pi / mask.vanes) if mask.vanes > 2 else np.zeros_like(aside)
-    one = np.ones_like(aside)
-    end = np.maximum(exit_distance(mask, foot_xi, foot_eta, sine * one, cosine * one), start)
-    near, far = (np.clip(part, start, end) for part in mask.disc.chord(foot_xi, foot_eta, sine, cosine))
+    directions = np.full_like(aside, sine), np.full_like(aside, cosine)
+    for shadow in shadows:
+        inside = shadow.depth(*foot) > 0
+        if inside.any():
+            start = np.maximum(start, np.where(inside, shadow.distance(*foot, *directions), 0.0))
+    end = np.maximum(exit_distance(bounds, *foot, *directions), start)
+    _check_open(shadows, foot, (sine, cosine), (start, end))
+    near, far = (np.clip(part, start, end) for part in mask.disc.chord(*foot, sine, cosine))
     count, across = ring_count(radial, 1 - _inner_radius(mask)), weight * (high - low) / 2
     ends = ((start, near), (far, end))
-    return [strip((foot_xi, foot_eta), (sine, cosine), two, across, count) for two in ends if (two[1] > two[0]).any()]
+    return [_strip(foot, (sine, cosine), two, across, count) for two in ends if (two[1] > two[0]).any()]
 
 
-def strip(
+def _check_open(
+    shadows: Sequence[Inside],
+    foot: tuple[np.ndarray, np.ndarray],
+    direction: tuple[float, float],
+    ends: tuple[np.ndarray, np.ndarray],
+) -> None:
+    """Raise GeometryError if a vane enters a shadow farther out and so is not a single strip."""
+    part = (np.arange(TRIED_ALONG) + 0.5)[:, None] / TRIED_ALONG
+    along = ends[0] + (ends[1] - ends[0]) * part
+    at = foot[0] + along * direction[0], foot[1] + along * direction[1]
+    if any((shadow.depth(*at) > 0).any() for shadow in shadows):
+        raise GeometryError(
+            "a vane crosses the shadow of a surface away from the centre; leave {parameter} off or remove the vanes",
+            parameter="clip",
+        )
+
+
+def _strip(
     foot: tuple[np.ndarray, np.ndarray],
     direction: tuple[float, float],
     ends: tuple[np.ndarray, np.ndarray],

@@ -5,6 +5,7 @@ from math import cos, pi, sin
 import numpy as np
 
 from p2sf.disc.mask import PupilMask
+from p2sf.disc.mask_nodes import outline_radius
 
 POINTS = 241  # of a circle, and at least of an iris
 
@@ -13,15 +14,8 @@ def opening(mask: PupilMask) -> np.ndarray:
     """Return ξ and η of the rim, or of the iris within it, a closed line, (2, points)."""
     corners = np.mod(mask.corner_angles, 2 * pi)
     theta = np.sort(np.append(np.linspace(0.0, 2 * pi, POINTS), corners))
-    outline: np.ndarray = opening_radius(mask, theta) * np.stack([np.sin(theta), np.cos(theta)])
+    outline: np.ndarray = outline_radius(mask, theta) * np.stack([np.sin(theta), np.cos(theta)])
     return outline
-
-
-def opening_radius(mask: PupilMask, theta: np.ndarray) -> np.ndarray:
-    """Return the radius of the rim or iris in directions from +η towards +ξ, radians."""
-    middle = np.zeros_like(theta)
-    distances = [edge.distance(middle, middle, np.sin(theta), np.cos(theta)) for edge in mask.edges]
-    return np.minimum(1.0, np.min(distances, axis=0)) if distances else np.ones_like(theta)
 
 
 def obstructions(mask: PupilMask) -> tuple[np.ndarray, ...]:
@@ -44,7 +38,7 @@ def dark_heights(mask: PupilMask) -> tuple[tuple[float, float], ...]:
 
     Vanes are ignored: they are thin, and a vane on this line would hide everything else.
     """
-    top, bottom = (float(radius) for radius in opening_radius(mask, np.array([0.0, pi])))
+    top, bottom = (float(radius) for radius in outline_radius(mask, np.array([0.0, pi])))
     middle = (float(end) for end in mask.disc.chord(np.zeros(()), np.zeros(()), 0.0, 1.0))
     low, high = (min(max(end, -bottom), top) for end in middle)
     covered = (-1.0, -bottom), (low, high), (top, 1.0)

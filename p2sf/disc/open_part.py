@@ -1,22 +1,40 @@
-"""What is open of the pupil, by its edges: closed curves over the stop, and the lines between them (handbook 6.3)."""
+"""What is open of the pupil: its edges, nodes over it, and the lines between them (handbook 4.6, 6.3).
 
-from dataclasses import dataclass
+The field is linear in the pupil. Nodes are a signed sum of pieces, on each of which the pupil function is smooth: what
+lies within rim and blades, less its intersections with obscuration, holes and shadows, less the vanes. Each piece but a
+vane must be star-shaped about its middle, as overlaps of rims seen through a lens are.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import pairwise
+from itertools import combinations, pairwise
 from math import ceil, pi
 
 import numpy as np
 
-from p2sf.disc.domain import ClearNodes, PupilDomain
-from p2sf.disc.mask import PupilMask
-from p2sf.disc.mask_nodes import THINNEST, exit_distance, outline_radius
-from p2sf.disc.quadrature import gauss_legendre
+from p2sf.disc.domain import HALF, WHOLE, ClearNodes, PupilDomain
+from p2sf.disc.mask import CLEAR, Disc, Inside, PupilMask
+from p2sf.disc.mask_nodes import (
+    THINNEST,
+    exit_distance,
+    join_pieces,
+    mask_nodes,
+    outline_radius,
+    vane_pieces,
+)
+from p2sf.disc.quadrature import gauss_legendre, whole_disc
+from p2sf.disc.star_curve import StarCurve, changes_of, curve_between
 from p2sf.errors import GeometryError
 
 CURVE = 1024  # points along an edge of the pupil: chords between them depart from it by 5e-6 of the radius
 FEWEST_PER_PANEL = 8
 CLOSE = 1e-8  # of the box: ends of edges no farther apart are one
-BEYOND = 1e-3  # of the way to a rim: no edge is drawn farther outside, where nothing is known of the pupil
+SEARCHED = 24, 144  # radii and directions of points among which the middle of a piece is sought
+SCAN = 192  # directions to half a turn between which corners are sought: a shorter arc may be missed
+ON_EDGE = 1e-9  # in radii of the rim
+FOOT_POINTS = 9  # across a vane
+CORNER_STEPS = 7  # a corner's direction to 6e-11
 
 TURN = np.arange(2 * CURVE) * (pi / CURVE)
 DISC = np.stack([np.sin(TURN), np.cos(TURN)])
@@ -26,71 +44,106 @@ Edges = list[tuple[np.ndarray, np.ndarray]]
 
 
 @dataclass(frozen=True, eq=False)
-class StarCurve:
-    """A closed curve over the stop, ``xi`` and ``eta`` (points,), all of which is seen from ``middle`` inside."""
+class OpenPart:
+    """What is open of the pupil: all inside the ``rim`` of the clear part, the disc's where None, but ``shadows``.
 
-    middle: tuple[float, float]
-    xi: np.ndarray
-    eta: np.ndarray
-
-    @cached_property
-    def _polar(self) -> tuple[np.ndarray, np.ndarray]:
-        return self._polar_about_middle(self.xi, self.eta)
-
-    def _polar_about_middle(self, xi: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        across, up = xi - self.middle[0], eta - self.middle[1]
-        return np.arctan2(across, up), np.hypot(across, up)
-
-    def excess(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
-        """Return how far beyond the curve points of any shape lie, over its distance from the middle there."""
-        angle, distance = self._polar_about_middle(xi, eta)
-        excess: np.ndarray = distance / np.interp(angle, *self._polar, period=2 * pi) - 1
-        return excess
-
-    def hold(self, xi: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return another closed curve whose parts far outside are drawn to just outside this one: the same inside."""
-        excess = self.excess(xi, eta) - BEYOND
-        following = np.roll(excess, -1)
-        left = np.flatnonzero((excess > 0) != (following > 0))
-        part = excess[left] / (excess[left] - following[left])
-        xi, eta = (np.insert(v, left + 1, v[left] + part * (np.roll(v, -1) - v)[left]) for v in (xi, eta))
-        nearer = np.minimum(1.0, (1 + BEYOND) / (1 + np.maximum(self.excess(xi, eta), 0.0)))
-        return tuple(place + nearer * (v - place) for v, place in zip((xi, eta), self.middle, strict=True))
-
-
-@dataclass(frozen=True, eq=False)
-class PupilEdges:
-    """What lens and stop leave open: all inside the ``rim`` of the clear part, the disc's where None, but ``shadows``.
-
-    ``shadows``: of holes of mirrors and the like, within the clear part.
+    ``shadows``: of holes of mirrors and the like, within the clear part. ``mask``: what else stands in the stop, as
+    the source sees it. ``domain``: the part of the disc that determines all.
     """
 
     rim: StarCurve | None = None
     shadows: tuple[StarCurve, ...] = ()
+    mask: PupilMask = CLEAR
+    domain: PupilDomain = HALF
 
-    def behind(self, mask: PupilMask) -> tuple[Edges, Edges]:
-        """Return the edges whose insides are open, behind a mask and without the rim, and those with dark insides."""
-        light, dark = edges_of(mask)
-        if self.rim is not None:
-            light, dark = ([self.rim.hold(*edge) for edge in some] for some in (light, dark))
-        return light, [*dark, *((shadow.xi, shadow.eta) for shadow in self.shadows)]
+    def behind(self, mask: PupilMask) -> "OpenPart":
+        """Return what a mask leaves open of it."""
+        return replace(self, mask=mask, domain=self.domain.behind(mask.domain))
+
+    @property
+    def whole(self) -> bool:
+        """Return whether nothing but the mask ends it."""
+        return self.rim is None and not self.shadows
 
     def opens(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
-        """Return which points within the clear part lie in no shadow, bool."""
-        open_ = np.ones(np.shape(xi), bool)
+        """Return which points of the disc are open, bool."""
+        open_: np.ndarray = self.mask.opens(xi, eta)
+        if self.rim is not None:
+            open_ &= self.rim.depth(xi, eta) >= 0
         for shadow in self.shadows:
-            open_ &= shadow.excess(xi, eta) >= 0
+            open_ &= shadow.depth(xi, eta) <= 0
         return open_
 
-    def nodes(self, mask: PupilMask, lines: int, samples: int, domain: PupilDomain) -> ClearNodes:
-        """Return nodes of positive weights over what a mask and these edges leave open of a domain.
+    def edges(self) -> tuple[Edges, Edges]:
+        """Return the edges whose insides are open, without the rim's, and those with dark insides."""
+        light, dark = edges_of(self.mask)
+        if self.rim is not None:
+            light, dark = ([self.rim.hold(*edge) for edge in some] for some in (light, dark))
+        return light, [*dark, *[shadow.points(CURVE // 2, WHOLE) for shadow in self.shadows]]
+
+    def nodes(self, counts: tuple[int, int]) -> ClearNodes:
+        """Return nodes over it, some of negative weights, about as dense as ``counts`` are over the disc.
+
+        It is the clear part behind the iris, minus its intersection with each dark disc and shadow, plus those with two
+        of them, and so on, and minus vanes. Raises GeometryError where nothing is open, and where a piece is not all
+        seen from a point inside.
+        """
+        if self.whole:
+            return self.domain.nodes(counts) if self.mask.clear else self.domain.over(mask_nodes(self.mask, *counts))
+        pieces = []
+        for sign, curve in self._regions:
+            xi, eta, area = curve.piece(counts)
+            pieces.append((xi, eta, sign * area))
+        for angle in self.mask.vane_angles:
+            self._check_foot(angle)
+            edges = self._bounds, self.shadows
+            pieces += vane_pieces(self.mask, angle, counts[0], *edges, self._corners_beside(angle))
+        return join_pieces(self.mask, pieces, self.domain)
+
+    @property
+    def _bounds(self) -> tuple[Inside, ...]:
+        return self.mask.bounds if self.rim is None else (*self.mask.edges, self.rim)
+
+    def _check_foot(self, angle: float) -> None:
+        """Raise GeometryError unless a vane begins within the rim."""
+        aside = np.linspace(-self.mask.vane_width, self.mask.vane_width, FOOT_POINTS)
+        if self.rim is not None and not (self.rim.depth(aside * np.cos(angle), -aside * np.sin(angle)) >= 0).all():
+            raise GeometryError(
+                "vanes meet outside the clear part of the pupil; leave {parameter} off or reduce the field",
+                parameter="clip",
+            )
+
+    def _corners_beside(self, angle: float) -> list[float]:
+        """Return how far the corners of rim and shadows lie beside the middle line of a vane."""
+        curves = [curve for curve in (self.rim, *self.shadows) if curve is not None]
+        corners = [curve.corner_points(WHOLE) for curve in curves]
+        return [float(x) for xi, eta in corners for x in xi * np.cos(angle) - eta * np.sin(angle)]
+
+    @cached_property
+    def _regions(self) -> list[tuple[int, StarCurve]]:
+        """Return the signs and the edges of the pieces that are no vanes."""
+        dark: list[Inside] = [*([self.mask.disc] if self.mask.obscured else []), *self.shadows]
+        found, empty = list[tuple[int, StarCurve]](), list[tuple[int, ...]]()
+        for size in range(len(dark) + 1):
+            for some in combinations(range(len(dark)), size):
+                if any(set(none) <= set(some) for none in empty):
+                    continue
+                curve = curve_within([*self._bounds, *(dark[k] for k in some)], self.domain)
+                if curve is None:
+                    empty.append(some)
+                else:
+                    found.append(((-1) ** size, curve))
+        return found
+
+    def line_nodes(self, lines: int, samples: int) -> ClearNodes:
+        """Return nodes of positive weights over it.
 
         Some ``lines`` along η between the ends and corners of all edges, of ``samples`` to a diameter. Raises
         GeometryError where nothing is open.
         """
-        light, dark = ([np.stack(edge) for edge in some] for some in self.behind(mask))
-        light = [DISC if self.rim is None else np.stack([self.rim.xi, self.rim.eta]), *light]
-        places, widths = domain.of_lines(*places_between([*light, *dark], lines))
+        light, dark = ([np.stack(edge) for edge in some] for some in self.edges())
+        light = [DISC if self.rim is None else np.stack(self.rim.points(CURVE // 2, WHOLE)), *light]
+        places, widths = self.domain.of_lines(*places_between([*light, *dark], lines))
         parts = []
         for low, high in zip(*open_intervals(light, dark, places), strict=True):
             node, weight = gauss_legendre(max(FEWEST_PER_PANEL, ceil(samples * float((high - low).max()) / 2)))
@@ -104,10 +157,60 @@ class PupilEdges:
             raise GeometryError(
                 "rims and the mask in the stop leave nothing open; leave {parameter} off", parameter="clip"
             )
-        return ClearNodes(xi, eta, area / share, share, domain=domain)
+        return ClearNodes(xi, eta, area / share, share, domain=self.domain)
 
 
-WHOLE_DISC = PupilEdges()
+WHOLE_DISC = OpenPart()
+
+
+def curve_within(edges: Sequence[Inside], domain: PupilDomain) -> StarCurve | None:
+    """Return the edge of what lies within several edges; None if nothing does.
+
+    Raises GeometryError if the middle of that is not in it.
+    """
+    if len(edges) == 1 and isinstance(edges[0], StarCurve) and edges[0].domain == domain:
+        return edges[0]
+    middle = _middle(edges, domain)
+    if middle is None:
+        return None
+
+    def distances(theta: np.ndarray) -> np.ndarray:
+        place = np.full_like(theta, middle[0]), np.full_like(theta, middle[1])
+        return np.stack([edge.distance(*place, np.sin(theta), np.cos(theta)) for edge in edges])
+
+    def first(theta: np.ndarray) -> np.ndarray:
+        each = distances(theta)
+        label: np.ndarray = (each <= each.min(0) + ON_EDGE).argmax(0)
+        return label
+
+    theta = domain.neighbours(domain.directions(SCAN))
+    corners = [changes_of(first, theta, first(theta), CORNER_STEPS)]
+    for curve in edges:
+        if isinstance(curve, StarCurve):
+            xi, eta = curve.corner_points(domain)
+            there = np.all([edge.depth(xi, eta) > -ON_EDGE for edge in edges], axis=0)
+            corners.append(np.arctan2(xi - middle[0], eta - middle[1])[there])
+    ascending = np.unique(np.round(np.mod(np.concatenate(corners), 2 * pi), 9)).tolist()
+    return curve_between(lambda angle: distances(angle).min(0), middle, domain.between(ascending), domain)
+
+
+def _middle(edges: Sequence[Inside], domain: PupilDomain) -> tuple[float, float] | None:
+    """Return the deepest within several edges of their middles and the mean of points there; None if there are none."""
+    xi, eta, _ = whole_disc(*SEARCHED)
+    middles = [edge.middle for edge in edges if isinstance(edge, Disc | StarCurve)]
+    held = np.all([edge.depth(xi, eta) > 0 for edge in edges], axis=0)
+    if held.any():
+        middles.append(domain.middle(xi[held], eta[held]))
+    depths = [min(float(edge.depth(*map(np.array, middle))) for edge in edges) for middle in middles]
+    deepest = int(np.argmax(depths))
+    if depths[deepest] > ON_EDGE:
+        return middles[deepest]
+    if held.any():
+        raise GeometryError(
+            "the clear part of the pupil has no clear centre; leave {parameter} off or reduce the field",
+            parameter="clip",
+        )
+    return None
 
 
 def edges_of(mask: PupilMask) -> tuple[Edges, Edges]:
@@ -127,7 +230,7 @@ def _vane_edge(mask: PupilMask, angle: float) -> tuple[np.ndarray, np.ndarray]:
     half, sine, cosine = mask.vane_width, np.sin(angle), np.cos(angle)
     aside = np.linspace(-half, half, CURVE // 16)
     one = np.ones_like(aside)
-    end = exit_distance(mask, aside * cosine, -aside * sine, sine * one, cosine * one)
+    end = exit_distance(mask.bounds, aside * cosine, -aside * sine, sine * one, cosine * one)
     sides = np.linspace(0, 1, CURVE // 8)
     along = np.concatenate([end, sides[::-1] * end[-1], sides * end[0]])
     across = np.concatenate([aside, np.full(sides.size, half), np.full(sides.size, -half)])

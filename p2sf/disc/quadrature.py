@@ -182,6 +182,11 @@ def gauss_legendre(count: int) -> tuple[np.ndarray, np.ndarray]:
     )
 
 
+def ring_count(radial: int, width: float) -> int:
+    """Return the number of radii for a part of the radius if the whole radius has ``radial``."""
+    return ceil((radial - 4) * width) + 4 if radial > 4 else radial
+
+
 def _legendre(order: int, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return P_n and its derivative by the three-term recurrence (A&S 22.7.10, 22.8.5)."""
     before, value, work = np.ones_like(x), x.copy(), np.empty_like(x)

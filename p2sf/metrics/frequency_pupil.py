@@ -23,7 +23,7 @@ from numpy.polynomial.chebyshev import chebder, chebvander
 from p2sf.conventions import write_protect
 from p2sf.disc.domain import HALF, WHOLE, ClearNodes, PupilDomain
 from p2sf.disc.mask import CLEAR, PupilMask
-from p2sf.disc.open_part import WHOLE_DISC, PupilEdges
+from p2sf.disc.open_part import WHOLE_DISC, OpenPart
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
@@ -31,11 +31,11 @@ from p2sf.metrics.spot import Landing, landing
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf.spherical import beyond_plane_waves
-from p2sf.pupil.clear_pieces import without_holes
+from p2sf.pupil.clear_curves import clear_curve
 from p2sf.pupil.fit import FittedPencil
 from p2sf.pupil.seen_mask import mask_seen
 from p2sf.pupil.smooth_pupil import all_reach
-from p2sf.pupil.vignetting import clear_nodes, clear_outline, pupil_edges, whole_nodes
+from p2sf.pupil.vignetting import open_part, whole_nodes
 from p2sf.raytrace.exit_sphere import ExitSphere
 from p2sf.raytrace.pencil import hexapolar, pencil
 from p2sf.raytrace.ray_field import COLLIMATED, ONE_DIRECTION
@@ -161,7 +161,7 @@ class FrequencyPupil:
         HALF where fx and −fx are alike, the mask included, so that sums take half of the lines.
     centroid_x_um : float
         The light's centroid along x.
-    edges : PupilEdges
+    edges : OpenPart
         Where rims and holes end the pupil over the stop; ``edge`` is that rim in the box.
     """
 
@@ -181,7 +181,7 @@ class FrequencyPupil:
     eta: np.ndarray = field(default_factory=lambda: np.array([[0.0, 0.0], [1.0, 0.0]]))
     domain: PupilDomain = HALF
     centroid_x_um: float = 0.0
-    edges: PupilEdges = WHOLE_DISC
+    edges: OpenPart = WHOLE_DISC
 
     @property
     def plain(self) -> bool:
@@ -381,13 +381,12 @@ class PupilAtRims(PupilEnd):
     """Where the pupil of a lens ends at rims and holes, with ``clip``, or where rays are lost."""
 
     def __init__(self, lens: Lens, source: Source, clip: bool):
-        self._lens, self._source, self._clip = without_holes(lens), source, clip
-        self.domain, self.edges = lens.pupil_domain, pupil_edges(lens, source, OUTLINE // 8, clip)
+        self.domain, self.edges = lens.pupil_domain, open_part(lens, source, clip)
+        self._rim = clear_curve(lens, source, clip)
 
     def columns(self, counts: tuple[int, int], domain: PupilDomain) -> tuple[np.ndarray, int]:
         """Return the same of the clear part without its holes."""
-        edge = clear_outline(self._lens, self._source, OUTLINE // 8, self._clip, domain)
-        return _with_edge(clear_nodes(self._lens, self._source, counts, self._clip), edge, domain)
+        return _with_edge(self._rim.nodes(counts), self._rim.points(OUTLINE // 8, domain), domain)
 
     def disc(self, counts: tuple[int, int]) -> None:
         """Return that these are not over the whole disc."""
@@ -497,8 +496,7 @@ def behind_mask(pupil: FrequencyPupil, mask: PupilMask, wavelength_um: float) ->
     xi, eta = pupil.stop_on_grid(axis, axis)
     low, high = pupil.columns(axis)  # beyond the edge its polynomials are of no use
     inside = (
-        mask.opens(xi, eta)
-        & pupil.edges.opens(xi, eta)
+        pupil.edges.behind(mask).opens(xi, eta)
         & (xi * xi + eta * eta <= 1)
         & (axis[:, None] >= low)
         & (axis[:, None] <= high)

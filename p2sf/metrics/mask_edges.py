@@ -16,7 +16,7 @@ FARTHEST = 1.05  # in the box's coordinates: farther out its polynomials are of 
 
 def box_edges(pupil: FrequencyPupil) -> tuple[list[np.ndarray], list[np.ndarray]]:
     """Return the closed curves in the box, (2, points), whose insides are open, and those whose insides are dark."""
-    inner, dark = pupil.edges.behind(pupil.mask)
+    inner, dark = pupil.edges.behind(pupil.mask).edges()
     return [pupil.edge, *(to_box(pupil, *edge) for edge in inner)], [to_box(pupil, *edge) for edge in dark]
 
 

@@ -13,8 +13,7 @@ from p2sf.disc.mask_nodes import mask_nodes, outline_radius
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, check_rays
 from p2sf.lens.source import Source
-from p2sf.pupil.clear_pieces import CLIPPED, LOST, holes_of
-from p2sf.pupil.clear_rim import clear_rim
+from p2sf.pupil.clear_curves import CLIPPED, LOST, clear_curve, holes_of
 from p2sf.pupil.seen_mask import mask_seen
 from p2sf.pupil.vignetting import whole_nodes
 from p2sf.raytrace.aiming import Sources
@@ -25,7 +24,6 @@ DRAWN_RINGS = 12
 FINER = 4  # times as many, where a yes or no ends the pupil between them
 RIM_RAYS = 48  # on half the rim
 JUST_INSIDE = 1 - 1e-9  # of the radius of an outline, which itself may count as covered
-CLEAR_RIM = 128, 4  # directions and rounds of `clear_rim`: RMS to 1e-4
 MEAN_ROUNDING = 1e-14  # of the largest term: some fifty roundings, all that a mean over symmetric rays consists of
 WEIGHT_ROUNDING = 1e-6  # of the largest term: the weights of aimed rays are differences, good to that
 
@@ -143,8 +141,9 @@ def _landing(lens: Lens, source: Source | Sources, clip: bool, follow_rims: bool
     if whole or not follow_rims or isinstance(source, Sources):
         return _check_light(found, clip)
     if mask.clear and not (clip and holes_of(lens)):
-        rim = clear_rim(lens, source, clip, *CLEAR_RIM)
-        return _check_light(_trace_sources(lens, source, rim.nodes(rings), rim.points, False)[0], clip)
+        rim = clear_curve(lens, source, clip)
+        nodes = rim.nodes((rings, 2 * rings))
+        return _check_light(_trace_sources(lens, source, nodes, rim.points(RIM_RAYS), False)[0], clip)
     nodes = _open_nodes(mask, FINER * rings, domain)
     return _check_light(_trace_sources(lens, source, nodes, _rim_points(mask, domain), clip)[0], clip)
 

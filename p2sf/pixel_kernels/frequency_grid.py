@@ -17,17 +17,16 @@ from p2sf.disc.domain import HALF, ClearNodes, PupilDomain
 from p2sf.disc.mask import PupilMask
 from p2sf.disc.zernike import basis_by_powers
 from p2sf.errors import GeometryError
-from p2sf.lens.lens import Lens, Surface, seen_from
+from p2sf.lens.lens import Lens, seen_from
 from p2sf.lens.source import Source
 from p2sf.paraxial.seidel import coefficients
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.pixel_kernels.pupil_stack import PixelPupil, PupilStack, frequency_basis, with_reach
-from p2sf.pupil.clear_pieces import CLIPPED
+from p2sf.pupil.clear_curves import CLIPPED, trace_rooms
 from p2sf.pupil.fit import AMPLITUDE, MAP, Level, area_of, fit, fit_terms, level_rays, residuals
 from p2sf.pupil.seen_mask import mask_seen
-from p2sf.raytrace.aiming import Sources, pupil_rays, start
+from p2sf.raytrace.aiming import Sources
 from p2sf.raytrace.pencil import all_reaching, in_azimuth, on_sensor
-from p2sf.raytrace.trace import lens_rims, run
 
 ORDERS = 6, 18  # the smallest and the largest
 FAR_OFF = 30.0  # times the allowed residual: then the next order but one is tried, since the next seldom suffices
@@ -138,30 +137,7 @@ def _rims(lens: Lens, sources: Sequence[Source], clip: bool, domain: PupilDomain
 def _rims_of(sources: Sequence[Source], lens: Lens, nodes: ClearNodes) -> np.ndarray:
     """Return the rims of sources of one azimuth at pupil nodes in the axes of the sensor."""
     lens, points = in_azimuth(lens, sources[0].azimuth_deg, nodes.xi, nodes.eta)
-    limits = lens_rims(lens, keep_stop=False)
-    rays, found = pupil_rays(lens, Sources.of(sources), *points), []
-    beam = start(rays)
-
-    def visit(number: int) -> None:
-        if number <= len(lens.surfaces):
-            found.extend(_clearances(lens.surfaces[number - 1], float(limits[number - 1]), beam.x, beam.y))
-
-    run(lens, beam, rays.index, visit=visit)
-    return np.stack(found, axis=1)
-
-
-def _clearances(surface: Surface, limit: float, x: np.ndarray, y: np.ndarray) -> list[np.ndarray]:
-    """Return what is positive where a surface is open: of its circle or both sides of its rectangle, and its hole."""
-    rim = surface.rim
-    across, up = rim.about_centre(x, y) if rim else (x, y)
-    square, found = across * across + up * up, []
-    if rim and rim.half_widths:
-        found += [1 - (along / half) ** 2 for along, half in zip((across, up), rim.half_widths, strict=True)]
-    elif np.isfinite(limit):
-        found.append(1 - square / limit**2)
-    if surface.inner_radius:
-        found.append(square / surface.inner_radius**2 - 1)
-    return found
+    return trace_rooms(lens, Sources.of(sources), *points).room
 
 
 def seidel_pupils(lens: Lens, points: Sequence[Source], clip: bool = False) -> PupilStack:

@@ -9,15 +9,12 @@ from p2sf.disc.domain import ClearNodes
 from p2sf.lens.lens import Lens, seen_from
 from p2sf.lens.source import Source
 from p2sf.pixel_kernels.sensor_points import SensorMap, landing_mm
-from p2sf.pupil.clear_pieces import holes_of
-from p2sf.pupil.clear_rim import clear_rim
 from p2sf.pupil.vignetting import pupil_nodes
 from p2sf.raytrace.aiming import pupil_rays
 from p2sf.raytrace.pencil import pencil, rays_through
 from p2sf.threads import map_threads
 
 NODES = 12, 32
-RIM_DIRECTIONS, RIM_ROUNDS = 96, 3  # corners between directions cost 3e-5 of the light, as do 16⁻³ of the radius
 
 
 @lru_cache(maxsize=256)
@@ -50,8 +47,6 @@ def light_passed(lens: Lens, source: Source, clip: bool = False) -> float:
 
 def _open_nodes(lens: Lens, source: Source, clip: bool) -> ClearNodes:
     """Return nodes over what mask, rims and lost rays leave open."""
-    if lens.mask.clear and clip and not holes_of(lens):
-        return clear_rim(lens, source, clip, RIM_DIRECTIONS, RIM_ROUNDS).nodes(NODES[0])
     nodes = pupil_nodes(lens, source, NODES, clip)
     if pencil(lens, source, nodes.xi, nodes.eta).passed.all():
         return nodes

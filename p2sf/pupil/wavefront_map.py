@@ -18,6 +18,7 @@ from p2sf.disc.mask import PupilMask
 from p2sf.disc.mask_cells import inside_share, open_share
 from p2sf.disc.mask_nodes import mask_nodes
 from p2sf.disc.mask_outline import obstructions, opening
+from p2sf.disc.star_curve import StarCurve
 from p2sf.disc.tilt import rms
 from p2sf.disc.zernike import powers
 from p2sf.disc.zernike_terms import family, zernike_terms, zernike_values
@@ -26,8 +27,7 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import wavefront
-from p2sf.pupil.clear_pieces import CLIPPED, LOST, holes_of
-from p2sf.pupil.clear_rim import ClearRim, clear_rim
+from p2sf.pupil.clear_curves import CLIPPED, LOST, clear_curve, holes_of
 from p2sf.pupil.seen_mask import mask_seen
 from p2sf.pupil.zernike_fit import USUAL_TERMS
 from p2sf.raytrace.pencil import displayed_opd, exit_radius, opd_on_sphere, pencil
@@ -35,14 +35,14 @@ from p2sf.raytrace.pencil import displayed_opd, exit_radius, opd_on_sphere, penc
 SAMPLES = {"preview": 128, "settled": 384}  # across the picture; an enlarged panel has some thousand pixels
 ORDERS = {"preview": 8, "settled": 18}  # of the fit
 RAYS = {"preview": (7, 20), "settled": (16, 44)}  # radii and directions: exact for products of two terms of that order
-RIMS = {"preview": (40, 2), "settled": (128, 4)}  # directions and rounds of `clear_rim`
-RADII = {"preview": 7, "settled": 12}  # of the nodes over a clipped pupil
+RIM_COUNTS = {"preview": (7, 32), "settled": (12, 72)}  # radii and directions over a clipped pupil
 CELLS = {"preview": 40, "settled": 96}  # across a pupil that ends at rims and behind a mask
 TRACED_CELLS = {"preview": 64, "settled": 192}  # across one with holes
 TURN = np.linspace(0, 2 * np.pi, 241)
 CIRCLE = np.stack([np.sin(TURN), np.cos(TURN)])
 RIM_RAYS = 5  # every so many points of that circle are traced
 EDGE_STEP = 1e-9
+RIM_POINTS = 128  # on half a clipped rim as drawn
 ON_EDGE = 1e-9  # beyond an edge, and still on it
 
 
@@ -72,28 +72,32 @@ class WavefrontMap:
 
 @dataclass(frozen=True, eq=False)
 class PassingCells:
-    """Which cells of a grid over the pupil let rays pass, (count, count): a clear part of any shape, as `ClearRim`."""
+    """Which cells of a grid over the pupil let rays pass, (count, count): a clear part of any shape."""
 
     passed: np.ndarray
 
-    def outline(self) -> np.ndarray:
-        """Return the pupil's own rim: that of the part has steps."""
-        return CIRCLE
-
-    def excess(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
+    def beyond(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
         """Return −1 at points in cells that let rays pass, and 1 elsewhere."""
         count = len(self.passed)
         row, column = (np.clip(((at + 1) * count / 2).astype(np.intp), 0, count - 1) for at in (eta, xi))
         return np.where(self.passed[row, column], -1.0, 1.0)
 
-    def nodes(self, radii: int) -> ClearNodes:
-        """Return the middles of these cells, whatever the ``radii`` of other parts."""
+    def nodes(self, counts: tuple[int, int]) -> ClearNodes:
+        """Return the middles of these cells, whatever the ``counts`` of other parts."""
         xi, eta, inside = disc(len(self.passed))
         even = np.full(int(self.passed.sum()), 1 / self.passed.sum())
         return ClearNodes(xi[self.passed], eta[self.passed], even, float(even.size / inside.sum()), domain=WHOLE)
 
 
-Clear = ClearRim | PassingCells
+Clear = StarCurve | PassingCells
+
+
+def _outline(clear: Clear) -> np.ndarray:
+    """Return ξ and η around the clear part, closed; of cells, which have steps, the pupil's own rim."""
+    if isinstance(clear, PassingCells):
+        return CIRCLE
+    xi, eta = clear.points(RIM_POINTS, WHOLE)
+    return np.stack([np.append(xi, xi[:1]), np.append(eta, eta[:1])])
 
 
 @dataclass(frozen=True, eq=False)
@@ -205,8 +209,8 @@ def samples_of_rays(lens: Lens, source: Source, quality: str, clip: bool = False
     if np.isfinite(waves).all() and not (clip and _clipped(lens, source, nodes)):
         return WavefrontSamples(nodes, waves, lens.pupil_domain)
     holed = clip and holes_of(lens)
-    clear = _passing(lens, source, quality) if holed else clear_rim(lens, source, clip, *RIMS[quality])
-    nodes = clear.nodes(RADII[quality])
+    clear = _passing(lens, source, quality) if holed else clear_curve(lens, source, clip)
+    nodes = clear.nodes(RIM_COUNTS[quality])
     return WavefrontSamples(nodes, displayed_opd(lens, source, nodes.xi, nodes.eta), lens.pupil_domain, clear)
 
 
@@ -269,7 +273,7 @@ def map_of_terms(
         blur,
         float(highest - lowest),
         kind,
-        outline=CIRCLE if clear is None else clear.outline(),
+        outline=CIRCLE if clear is None else _outline(clear),
         clear=part.nodes.share,
         parts=parts,
         rest=rest,
@@ -303,7 +307,7 @@ class TermsAt:
 
 
 @dataclass(frozen=True, eq=False)
-class OpenPart:
+class MapPart:
     """What rims and mask leave open of the pupil, for maps: all that no wavefront and no wavelength changes.
 
     The terms and the path from the chief ray's, µm, at the open sides of edges, at nodes of positive weights, over
@@ -327,11 +331,11 @@ class OpenPart:
 
 
 @lru_cache(maxsize=8)
-def _whole_part(mask: PupilMask, known: MapTerms) -> OpenPart:
+def _whole_part(mask: PupilMask, known: MapTerms) -> MapPart:
     return _open_part(mask, known, None)
 
 
-def _open_part(mask: PupilMask, known: MapTerms, clear: Clear | None) -> OpenPart:
+def _open_part(mask: PupilMask, known: MapTerms, clear: Clear | None) -> MapPart:
     """Return what a mask and the clear part leave open. Raises GeometryError where that is nothing.
 
     Zernike's terms are made orthogonal over it (`p2sf.pupil.zernike_fit`), vanes set aside: the nodes then have
@@ -352,7 +356,7 @@ def _open_part(mask: PupilMask, known: MapTerms, clear: Clear | None) -> OpenPar
         used = tuple(term for term in zernike_terms("noll", USUAL_TERMS) if term.odd in parts.domain.parities(False))
         degrees, values = [(term.n, term.m) for term in used], zernike_values(used, parts.xi, parts.eta)
     open_, beyond = _on_samples(mask, clear, SAMPLES[known.quality])
-    return OpenPart(
+    return MapPart(
         nodes=nodes,
         at_nodes=None if parts is nodes else at(nodes.xi, nodes.eta),
         at_edges=at(*_open_edges(mask, clear)),
@@ -378,7 +382,7 @@ def _figure_nodes(mask: PupilMask, known: MapTerms, clear: Clear | None) -> tupl
         over = known.domain.over(nodes)
         return over, over if parts is nodes else known.domain.over(parts)
     if mask.clear:
-        return (clear.nodes(RADII[known.quality]),) * 2
+        return (clear.nodes(RIM_COUNTS[known.quality]),) * 2
     return (_open_cells(mask, clear, CELLS[known.quality]),) * 2
 
 
@@ -386,7 +390,7 @@ def _open_cells(mask: PupilMask, clear: Clear, count: int) -> ClearNodes:
     """Return the cells of a grid that the clear part and the mask leave open, edge cells by their open share."""
     xi, eta, _ = disc(count)
     width = np.full(xi.shape, 2 / count)
-    share = open_share(mask, xi, eta, width) * inside_share(-clear.excess(xi, eta), width)
+    share = open_share(mask, xi, eta, width) * inside_share(-clear.beyond(xi, eta), width)
     kept = share > 0
     if not kept.any():
         raise GeometryError(LOST)
@@ -398,16 +402,16 @@ def _on_samples(mask: PupilMask, clear: Clear | None, count: int) -> tuple[np.nd
     """Return which samples of the square are open, and which more than a pixel away from all that is."""
     xi, eta, _ = disc(count)
     covered, pixel = ~mask.opens(xi, eta), np.sqrt(2) * 2 / count
-    excess = np.hypot(xi, eta) - 1 if clear is None else clear.excess(xi, eta)
+    excess = np.hypot(xi, eta) - 1 if clear is None else clear.beyond(xi, eta)
     return (excess <= 0) & ~covered, _all_around(covered) | (excess >= pixel)
 
 
 def _open_edges(mask: PupilMask, clear: Clear | None) -> np.ndarray:
     """Return ξ and η of points on edges, or beside those of a mask, where these are open, (2, points)."""
-    rim = CIRCLE if clear is None else clear.outline()
+    rim = CIRCLE if clear is None else _outline(clear)
     drawn = [opening(mask), *obstructions(mask)] if mask.edged else []
     beside = np.concatenate([rim, *(edge * part for edge in drawn for part in (1 - EDGE_STEP, 1 + EDGE_STEP))], axis=1)
-    beyond = np.hypot(*beside) - 1 if clear is None else clear.excess(*beside)
+    beyond = np.hypot(*beside) - 1 if clear is None else clear.beyond(*beside)
     return beside[:, (beyond <= ON_EDGE / 2) & mask.opens(*beside)]
 
 

@@ -5,27 +5,26 @@ polynomials orthogonalised there by Gram–Schmidt (Mahajan & Dai 2007); over a 
 Mahajan 1981. The mean squares then add up to the variance of the wavefront for any shape of the pupil.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import ceil
 
 import numpy as np
 
 from p2sf.disc.domain import ClearNodes
 from p2sf.disc.mask import PupilMask
-from p2sf.disc.open_part import WHOLE_DISC, PupilEdges
+from p2sf.disc.open_part import WHOLE_DISC, OpenPart
 from p2sf.disc.tilt import rms
 from p2sf.disc.zernike_terms import ZernikeOrder, ZernikeTerm, zernike_terms, zernike_values
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.pupil.clear_pieces import holes_of
+from p2sf.pupil.clear_curves import holes_of
 from p2sf.pupil.seen_mask import mask_seen
-from p2sf.pupil.vignetting import clear_nodes, pupil_edges, pupil_nodes
+from p2sf.pupil.vignetting import clear_nodes, open_part, pupil_nodes
 from p2sf.raytrace.pencil import displayed_opd, pencil
 from p2sf.threads import one_blas_thread
 
 COUNTS = 24, 64  # radii and directions: exact for terms up to degree 20 and a wavefront of degree 40
 USUAL_TERMS = 37
-EDGE_POINTS = 512  # of half an edge: chords depart from it by 5e-6 of the radius
 LINES_PER_RADIUS = 4  # between corners and ends of edges
 RIM_RAYS = 65  # on the right half of the rim, which is clipped first
 
@@ -89,7 +88,7 @@ def pupil_opd(
     tried = np.append(nodes.xi, rim[0]), np.append(nodes.eta, rim[1])
     if not pencil(lens, source, *tried, clip).passed.all():
         if mask.edged or (clip and holes_of(lens)):
-            nodes = open_nodes(lens, source, counts, pupil_edges(lens, source, EDGE_POINTS, clip))
+            nodes = open_nodes(lens, source, counts, open_part(lens, source, clip))
         else:
             nodes = clear_nodes(lens, source, counts, clip)
     return nodes, displayed_opd(lens, source, nodes.xi, nodes.eta) - path_waves(mask, source, nodes)
@@ -102,7 +101,7 @@ def path_waves(mask: PupilMask, source: Source, nodes: ClearNodes) -> np.ndarray
     return waves
 
 
-def open_nodes(lens: Lens, source: Source, counts: tuple[int, int], edges: PupilEdges = WHOLE_DISC) -> ClearNodes:
+def open_nodes(lens: Lens, source: Source, counts: tuple[int, int], edges: OpenPart = WHOLE_DISC) -> ClearNodes:
     """Return nodes of positive weights over what the mask in the stop and the ``edges`` of the clear part leave open.
 
     Raises GeometryError where that is nothing.
@@ -111,7 +110,8 @@ def open_nodes(lens: Lens, source: Source, counts: tuple[int, int], edges: Pupil
     if edges is WHOLE_DISC and mask.disc.centred and not (mask.iris or mask.spider):
         radial = ceil((counts[0] - 4) / (1 - mask.obscuration)) + 4  # as many in the ring as in the disc
         return pupil_nodes(lens, source, (radial, counts[1]))
-    return edges.nodes(mask, LINES_PER_RADIUS * counts[0], 2 * counts[0], lens.pupil_domain.behind(mask.domain))
+    behind = replace(edges, mask=mask, domain=lens.pupil_domain.behind(mask.domain))
+    return behind.line_nodes(LINES_PER_RADIUS * counts[0], 2 * counts[0])
 
 
 def decompose(nodes: ClearNodes, waves: np.ndarray, basis: ZernikeOrder, terms: tuple[ZernikeTerm, ...]) -> ZernikeFit:

@@ -5,17 +5,19 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
+from p2sf.disc.domain import WHOLE
 from p2sf.disc.mask import PupilMap, PupilMask
 from p2sf.disc.mask_cells import open_share
 from p2sf.disc.mask_nodes import mask_nodes, throughput
 from p2sf.disc.mask_outline import dark_heights, obstructions, opening
-from p2sf.disc.open_part import StarCurve, edges_of
+from p2sf.disc.open_part import edges_of
+from p2sf.disc.star_curve import StarCurve
 from p2sf.lens.lens import with_mask
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
 from p2sf.parameters import PARAMETERS
-from p2sf.pupil.clear_pieces import piece_nodes
+from p2sf.pupil.vignetting import pupil_nodes
 from p2sf.setting import MASK, Request, mask_of
 
 MAP = PupilMap.sampled(lambda xi, eta: 0.6 + 0.3 * xi * eta + 0.2 * xi, 9)
@@ -102,7 +104,7 @@ def test_nodes_are_of_the_open_part(mask, opened, by_grid):
 def test_pieces_between_rims_are_of_the_open_part(mask, by_grid):
     """As exact rays have it, of a lens whose rims are nowhere near."""
     lens = with_mask(find_lens("singlet_f6"), mask)
-    nodes = piece_nodes(lens, Source(), (16, 32), False, mask).unfolded()
+    nodes = pupil_nodes(lens, Source(), (16, 32), whole=False).unfolded()
     found = np.array([nodes.share * nodes.weight @ moment(nodes.xi, nodes.eta) for moment in MOMENTS])
     assert found == pytest.approx(by_grid, abs=3e-4)
 
@@ -218,7 +220,7 @@ def test_a_request_states_it():
 def test_a_curve_that_is_held_follows_the_open_part_about_its_middle_in_order():
     """An ellipse twice as wide as a circle and half as high: its ends lie on the circle, and nothing runs back."""
     turn = np.linspace(0, 2 * np.pi, 60, endpoint=False)
-    circle = StarCurve((0.0, 0.0), np.sin(turn), np.cos(turn))
+    circle = StarCurve((0.0, 0.0), (0.0, 2 * np.pi), (np.ones(1),), WHOLE)
     xi, eta = circle.hold(2 * np.sin(turn), 0.5 * np.cos(turn))
     assert (np.diff(np.unwrap(np.arctan2(xi, eta))) >= -1e-12).all() and len(xi) == 64
     assert np.abs(np.hypot(xi, eta)[np.abs(xi) > 0.9] - 1).max() < 0.01

@@ -195,7 +195,7 @@ def test_a_relay_at_infinity_is_refused_before_its_outline_is_sought(name, monke
     def sought(*_):
         raise AssertionError("the outline of what few rays pass was sought")
 
-    monkeypatch.setattr("p2sf.pupil.vignetting._edge", sought)
+    monkeypatch.setattr("p2sf.pupil.clear_curves._edge", sought)
     with pytest.raises(GeometryError) as caught:
         encircled_energy(find_lens(name), Source())
     assert 0 < caught.value.message.values["percent"] < 5

@@ -18,7 +18,7 @@ from p2sf.metrics.measures import PupilPart, energy_in, mtf_of, parts_of, spread
 from p2sf.metrics.transfer import otf_slices
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.seidel import seidel_psf
-from tests.pupil.test_clear_pieces import circles_apart
+from tests.pupil.test_open_part import circles_apart
 from tests.support.waves import NA, WAVELENGTH_UM, waves
 
 MASKS = (

@@ -22,7 +22,7 @@ from p2sf.metrics.transfer import otf_slices
 from p2sf.psf.geometric import geometric_psf
 from p2sf.psf.methods import PsfOptions, render
 from p2sf.psf.seidel import seidel_psf
-from tests.pupil.test_clear_pieces import circles_apart
+from tests.pupil.test_open_part import circles_apart
 from tests.support.masked_sum import masked_sum
 from tests.support.tiers import in_tiers
 from tests.support.waves import NA, WAVELENGTH_UM, r_squared, waves

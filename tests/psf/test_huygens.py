@@ -13,8 +13,9 @@ from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.lens.source import Source
 from p2sf.psf.huygens import RayPupil, Watch, first_counts, huygens_psf, ray_waves
+from p2sf.pupil.clear_curves import clear_curve
 from p2sf.pupil.plane_waves import window_reach_um
-from p2sf.pupil.vignetting import clear_nodes, outline
+from p2sf.pupil.vignetting import clear_nodes
 from p2sf.raytrace.pencil import pencil
 from tests.support.rays.pencils import double_gauss
 from tests.support.reference import LENSES, case, huygens_rows, prescription_lens
@@ -115,7 +116,7 @@ def test_clear_apertures_end_exactly_at_the_rims():
     source = Source(inf, 0.0, 0.6562725)
     cut = replace(lens, surfaces=surfaces)
     # On axis the first rim simply stops the pupil down to a circle: 12 mm of 16.7 mm.
-    assert outline(cut, source).corners == (0.0, np.pi)
+    assert clear_curve(cut, source).corners == (0.0, np.pi)
     radius = clear_nodes(cut, source, (8, 24)).share ** 0.5
     row = huygens_rows("double_gauss_28")[0][0]
     small = replace(lens, aperture=Aperture("stop_semi_diameter", lens.aperture.value * radius))
@@ -174,7 +175,7 @@ def test_the_cats_eye_converges_and_loses_light():
     clipped = huygens_psf(lens, source, 32, pixel, clip=True)
     assert clipped.error <= 1e-4
     share = clear_nodes(lens, source, (8, 64)).share
-    assert len(outline(lens, source).corners) > 2
+    assert len(clear_curve(lens, source).corners) > 2
     grid = np.linspace(-1, 1, 201)
     xi, eta = (a.ravel() for a in np.meshgrid(grid, grid))
     inside = xi**2 + eta**2 <= 1

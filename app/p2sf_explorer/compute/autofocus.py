@@ -8,7 +8,7 @@ from p2sf.disc.tilt import without_tilt
 from p2sf.errors import GeometryError
 from p2sf.paraxial.balance import depth_of_focus_um
 from p2sf.paraxial.wavefront import wavefront
-from p2sf.pupil.clear_pieces import CLIPPED, LOST
+from p2sf.pupil.clear_curves import CLIPPED, LOST
 from p2sf.pupil.seen_mask import mask_seen
 from p2sf.pupil.wavefront_map import samples_of_rays
 from p2sf.raytrace.pencil import displayed_opd, pencil

@@ -15,10 +15,10 @@ from p2sf.psf.fitted import counts_of, fitted_waves, psf_of_fit
 from p2sf.psf.picture import psf_of_waves
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import seidel_psf
+from p2sf.pupil.clear_curves import CLIPPED
 from p2sf.pupil.fit import FittedPencil, Level, fit, fit_rays, level_rays, levels, levels_for
 from p2sf.pupil.plane_waves import disc_words, window_reach_um
 from p2sf.pupil.seen_mask import mask_seen, with_slopes
-from p2sf.pupil.vignetting import CLIPPED
 from p2sf.pupil.wavefront_map import MapTerms, WavefrontMap, map_of_terms
 from p2sf.raytrace.pencil import Rays, exit_radius, opd_on_sphere, pencil
 from p2sf_explorer.compute.setup import ParaxialSetup

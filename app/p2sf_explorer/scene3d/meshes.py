@@ -8,7 +8,8 @@ from itertools import pairwise
 import numpy as np
 
 from p2sf.disc.mask import PupilMask
-from p2sf.disc.mask_outline import opening_radius, vane
+from p2sf.disc.mask_nodes import outline_radius
+from p2sf.disc.mask_outline import vane
 from p2sf.lens.lens import Lens, Surface, indices
 from p2sf.lens.placement import Motion, along_z
 from p2sf_explorer.compute.glass_outlines import GLASS_INDEX, crossed_before, drawn_rims, sag, still
@@ -161,7 +162,7 @@ def masked_stop(mask: PupilMask, rim: float, outer: float, z: float, thick: floa
     if not mask.edged:
         return ring(rim, outer, z, thick)
     steps = IRIS_STEPS if mask.iris else STEPS
-    inner = rim * opening_radius(mask, np.pi / 2 - np.linspace(*CUT, steps + 1))  # turns go from +x to +y
+    inner = rim * outline_radius(mask, np.pi / 2 - np.linspace(*CUT, steps + 1))  # turns go from +x to +y
     radii = np.stack([inner, np.full(inner.size, outer)], axis=1)
     parts = [revolve(radii, np.full(2, z - thick / 2), np.full(2, z + thick / 2), steps=steps)]
     if mask.obscured:

@@ -1293,7 +1293,7 @@
 <message><source>a sharp core in a wide halo</source><translation>ein scharfer Kern in weitem Hof</translation></message>
 <message><source>a surface that is not round</source><translation>eine Fläche, die nicht rund ist</translation></message>
 <message><source>a text</source><translation>einen Text</translation></message>
-<message><source>a vane crosses the shadow of surface {surface} away from the centre; leave {parameter} off or remove the vanes</source><translation>eine Strebe quert abseits der Mitte den Schatten von Fläche {surface}; {parameter} ausschalten oder die Streben wegnehmen</translation></message>
+<message><source>a vane crosses the shadow of a surface away from the centre; leave {parameter} off or remove the vanes</source><translation>eine Strebe quert abseits der Mitte den Schatten einer Fläche; {parameter} ausschalten oder die Streben wegnehmen</translation></message>
 <message><source>a wavefront of {shape} with areas of {areas}; give two equal even squares</source><translation>eine Wellenfront {shape} mit Flächen {areas}; zwei gleiche Quadrate gerader Seitenzahl angeben</translation></message>
 <message><source>a wavefront on {size} cells repeats its PSF every {period:.4g} µm, and the window is {window:.4g} µm wide; give a finer grid or a smaller window</source><translation>eine Wellenfront auf {size} Zellen wiederholt ihre PSF alle {period:.4g} µm, und das Fenster ist {window:.4g} µm breit; ein feineres Gitter oder ein kleineres Fenster angeben</translation></message>
 <message><source>a wavelength is not that of light; give micrometres</source><translation>eine Wellenlänge ist nicht die von Licht; Mikrometer angeben</translation></message>
