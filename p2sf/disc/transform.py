@@ -70,14 +70,14 @@ def _even_nufft(amplitude: np.ndarray, kx: np.ndarray, ky: np.ndarray, x: np.nda
     """
     if not x.any():  # where the images have the waves of the nodes
         return _nufft(amplitude, kx, ky, x, y)
-    middle, nodes = x.size // 2, amplitude.shape[-1]
+    middle, nodes, half = x.size // 2, amplitude.shape[-1], amplitude / 2
     about_0 = x[middle] == 0
     if about_0 and x.size * y.size < SAMPLES_OF_NODE * nodes:
         wide = x if x.size % 2 else np.append(x, -x[0])
-        field = _nufft(amplitude, kx, ky, wide, y)
-        even: np.ndarray = (field[..., : x.size] + field[..., ::-1][..., : x.size]) / 2
+        field = _nufft(half, kx, ky, wide, y)
+        even: np.ndarray = field[..., : x.size] + field[..., ::-1][..., : x.size]
         return even
-    pairs = (amplitude / 2, amplitude / 2), (kx, -kx), (ky, ky)
+    pairs = (half, half), (kx, -kx), (ky, ky)
     both, across, up = (np.concatenate(pair, axis=-1) for pair in pairs)
     field = _nufft(both, across, up, -x[middle::-1] if about_0 else x, y)
     return np.concatenate([field[..., :0:-1], field[..., : x.size - middle]], axis=-1) if about_0 else field
