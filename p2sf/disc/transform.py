@@ -27,7 +27,7 @@ NUFFT_ERROR = {np.dtype(np.float64): 1e-14, np.dtype(np.float32): 1e-6}
 COARSE_ERROR = {np.dtype(np.float64): 1e-9, np.dtype(np.float32): 5e-5}
 MANY_SAMPLES = 2**15  # beyond which that one is taken; in float64 a picture then errs by its square, 1e-18, in R²
 FEW_SAMPLES = 128 * 129  # up to which a plan, which takes as long as a sum, is kept
-SAMPLES_OF_NODE = 8  # of an even picture, from which on a sum over half of them takes less time
+SAMPLES_OF_NODE = 11  # of an even picture, from which on a sum over half of them takes less time
 _here = local()  # ``plan`` keeps plans, which hold the nodes of one sum at a time, apart in each thread
 
 
