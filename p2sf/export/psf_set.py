@@ -19,7 +19,7 @@ from p2sf.parameters import check_samples
 from p2sf.pixel_kernels.frequency_grid import pupil_map
 from p2sf.pixel_kernels.illumination import light_collected
 from p2sf.pixel_kernels.pixels import PixelWindow, half_width, part_filled_kernel, samples_across
-from p2sf.pixel_kernels.pupil_stack import PixelPupil
+from p2sf.pixel_kernels.pupil_stack import PupilStack
 from p2sf.pixel_kernels.ray_spread import RaySpread, part_filled_rays, ray_spread
 from p2sf.psf.prediction import predicted_error
 from p2sf.raytrace.pencil import pencil
@@ -32,7 +32,7 @@ PIXELS = 65  # a side, of one that nobody names: odd, for a chief ray on the mid
 PIXEL_UM = 4.0  # of a sensor that nobody names
 MOST_BYTES = 1 << 31  # of the PSFs of one set
 
-Light = PixelPupil | RaySpread
+Light = PupilStack | RaySpread
 
 
 @dataclass(frozen=True)
@@ -187,7 +187,7 @@ def _light(lens: Lens, point: Source, grid: PixelGrid, clip: bool) -> Light:
         ) from error
 
 
-def _samples(pupil: PixelPupil, grid: PixelGrid) -> int:
+def _samples(pupil: PupilStack, grid: PixelGrid) -> int:
     """Return an odd number of samples along a pixel that resolves every fringe."""
     return samples_across(pupil, grid.pixel_um, EVERY_FRINGE) | 1
 
@@ -218,7 +218,7 @@ def _figures(lens: Lens, point: Source, clip: bool) -> tuple[float, float, float
 
 
 def _error(light: Light) -> float:
-    return predicted_error(light.residual_waves, "fitted") if isinstance(light, PixelPupil) else float("nan")
+    return predicted_error(light.residual_waves.item(), "fitted") if isinstance(light, PupilStack) else float("nan")
 
 
 def left_out(found: PsfSet) -> Message | None:

@@ -16,7 +16,7 @@ from p2sf.lens.lens import Lens
 from p2sf.parameters import LARGEST_SIDE
 from p2sf.pixel_kernels.channel import RAYS, Light, Recipe
 from p2sf.pixel_kernels.pixels import samples_across
-from p2sf.pixel_kernels.pupil_stack import PixelPupil
+from p2sf.pixel_kernels.pupil_stack import PupilStack
 from p2sf.pupil.fit import levels_for
 from p2sf.scene.field_area import field_area
 from p2sf.scene.planning.bounds import check_colours
@@ -88,7 +88,7 @@ def wave_side(planned: Plan) -> float:
         light, half = _edge_half(planned)
     except GeometryError:  # rays are lost, or the pupil is too distorted for polynomials
         return inf
-    if isinstance(light, PixelPupil) and light.residual_waves > MOST_RESIDUAL:
+    if isinstance(light, PupilStack) and light.residual_waves > MOST_RESIDUAL:
         return inf
     return (2 * half + 1) * samples_across(light, planned.scene.sensor.pixel_um)
 

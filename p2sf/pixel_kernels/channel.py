@@ -10,7 +10,7 @@ from p2sf.conventions import UM_PER_MM, vergence
 from p2sf.errors import P2SFError
 from p2sf.pixel_kernels.frequency_grid import pupil_map
 from p2sf.pixel_kernels.pixels import PixelWindow, half_widths, pixel_kernels, samples_each
-from p2sf.pixel_kernels.pupil_stack import PixelPupil, PupilStack, stack_pupils
+from p2sf.pixel_kernels.pupil_stack import PupilStack, stack_pupils
 from p2sf.pixel_kernels.pupil_table import PupilTable
 from p2sf.pixel_kernels.ray_spread import RaySpread, ray_kernel, ray_spread
 from p2sf.pixel_kernels.sensor_points import SensorMap
@@ -19,7 +19,7 @@ from p2sf.pupil.seen_mask import mask_seen
 RAYS = "rays"  # the method of recipes for kernels from densities of rays
 
 
-Light: TypeAlias = PixelPupil | RaySpread
+Light: TypeAlias = PupilStack | RaySpread
 """What describes the light of one point: a pupil whose waves are summed, or rays."""
 
 
@@ -173,7 +173,7 @@ class Kernels:
         by_place = [self.lights(*place) for place in zip(x_mm.tolist(), y_mm.tolist(), strict=True)]
         lights, landings = zip(*(pairs[k] for k in range(len(waves)) for pairs in by_place), strict=True)
         rays = [light for light in lights if isinstance(light, RaySpread)]
-        of_waves = [light for light in lights if isinstance(light, PixelPupil)]
+        of_waves = [light for light in lights if isinstance(light, PupilStack)]
         landed = np.array(landings)
         return PointLights(rays or stack_pupils(of_waves), landed[:, 0], landed[:, 1:] * UM_PER_MM)
 

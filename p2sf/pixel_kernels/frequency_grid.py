@@ -21,7 +21,7 @@ from p2sf.lens.lens import Lens, seen_from
 from p2sf.lens.source import Source
 from p2sf.paraxial.seidel import coefficients
 from p2sf.paraxial.wavefront import wavefront
-from p2sf.pixel_kernels.pupil_stack import PixelPupil, PupilStack, frequency_basis, with_reach
+from p2sf.pixel_kernels.pupil_stack import PupilStack, frequency_basis, with_reach
 from p2sf.pupil.clear_curves import CLIPPED, trace_rooms
 from p2sf.pupil.fit import AMPLITUDE, MAP, Level, area_of, fit, fit_terms, level_rays, residuals
 from p2sf.pupil.seen_mask import mask_seen
@@ -40,7 +40,7 @@ Fits: TypeAlias = tuple[DiscFunction, np.ndarray]
 CLIPPED_SHARE, BESIDE = 0.03, 1.7  # the part that clipped nodes have in a fit, and up to which square of u
 
 
-def pupil_map(lens: Lens, source: Source, method: str, numbers: int | None = None, clip: bool = False) -> PixelPupil:
+def pupil_map(lens: Lens, source: Source, method: str, numbers: int | None = None, clip: bool = False) -> PupilStack:
     """Return the pupil of one source by the method "seidel" or "fitted"; ``clip`` lets the clear rims clip it.
 
     It is given in the axes of the source's field.
@@ -49,7 +49,7 @@ def pupil_map(lens: Lens, source: Source, method: str, numbers: int | None = Non
     """
     mask, turned = mask_seen(lens, source), seen_from(lens, source.azimuth_deg)
     source = replace(source, azimuth_deg=0.0)
-    return replace(PUPILS[method](turned, source, numbers, clip).one(0), mask=mask)
+    return replace(PUPILS[method](turned, source, numbers, clip), mask=mask)
 
 
 def _by_six(lens: Lens, source: Source, numbers: int | None, clip: bool) -> PupilStack:
@@ -171,7 +171,7 @@ def seidel_pupils(lens: Lens, points: Sequence[Source], clip: bool = False) -> P
 
 
 def _energy(function: DiscFunction, rims: np.ndarray, where: Counts) -> np.ndarray:
-    """Return the energy of fits as `PixelPupil` has it: by Parseval ∫amplitude²/|∂f/∂(ξ, η)| dξ dη."""
+    """Return the energy of fits as `PupilStack` has it: by Parseval ∫amplitude²/|∂f/∂(ξ, η)| dξ dη."""
     nodes, amplitude = function.domain.nodes(where), function.channels(AMPLITUDE).on(where)[:, 0]
     light = amplitude**2 / np.abs(area_of(function.channels(MAP).gradient(where)))
     energy: np.ndarray = np.pi * ((rims > 0).all(1) * light if rims.shape[1] else light) @ nodes.weight

@@ -4,7 +4,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from p2sf.pixel_kernels.pupil_stack import PupilStack, turn_pupils
+from p2sf.pixel_kernels.pupil_stack import PupilStack, turned_powers
 
 NODES = 40, 96  # rings and directions
 
@@ -18,22 +18,17 @@ def landing_kernels(
     fields lie ``angles`` radians from +y towards +x, and ``shifts_um``, (pupils, 2), displace them, x and y up. Pupil
     masks are left out.
     """
-    turned, order = turn_pupils(pupils, angles), pupils.order
-    value, by_u, by_v = _powers(order)
-
-    def at(form: np.ndarray, powers: np.ndarray) -> np.ndarray:
-        found: np.ndarray = form.reshape(len(form), -1) @ powers
-        return found
-
-    area = np.abs(at(turned.xi, by_u) * at(turned.eta, by_v) - at(turned.xi, by_v) * at(turned.eta, by_u))
-    inside = at(turned.xi, value) ** 2 + at(turned.eta, value) ** 2 <= 1
-    for rim in turned.rims:
-        inside &= at(rim, value) > 0
-    light = np.where(inside, area**2, 0.0)  # nodes have equal areas
-    if turned.weight is not None:
-        light *= at(turned.weight, value) ** 2
+    value, by_u, by_v = _powers(pupils.order)
+    phase, maps = (form.reshape(*form.shape[:-2], -1) for form in turned_powers(pupils, angles))
+    (xi_u, eta_u), (xi_v, eta_v) = maps[:2] @ by_u, maps[:2] @ by_v
+    xi, eta, *others = maps @ value
+    light = np.where(xi**2 + eta**2 <= 1, (xi_u * eta_v - xi_v * eta_u) ** 2, 0.0)  # nodes have equal areas
+    if pupils.weight.size:
+        light *= others.pop() ** 2
+    for rim in others:
+        light *= rim > 0
     x, y = (
-        shift[:, None] - at(turned.phase, slope) / turned.radius[:, None]
+        shift[:, None] - phase @ slope / pupils.radius[:, None]
         for shift, slope in zip(shifts_um.T, (by_u, by_v), strict=True)
     )
     points = zip(halves.tolist(), x / pixel_um, y / pixel_um, light, strict=True)

@@ -10,7 +10,7 @@ from p2sf.conventions import FloatOrArray
 from p2sf.disc.mask_cells import inside_share, open_share, turned_back, wings
 from p2sf.errors import SamplingError
 from p2sf.parameters import LARGEST_SIDE
-from p2sf.pixel_kernels.pupil_stack import PixelPupil, PupilStack, Turned, stack_pupils, turn_pupils
+from p2sf.pixel_kernels.pupil_stack import PupilStack, turned_powers
 from p2sf.pixel_kernels.ray_spread import RaySpread
 
 TAIL = 8.0  # of λ/NA: the width of the diffraction wings kept beyond where rays land, times `wings` behind a mask
@@ -18,7 +18,7 @@ SINC = np.float32(1 - np.pi**2 / 6), np.float32(np.pi**4 / 120 + 1 - np.pi**2 / 
 BLOCK = 32768  # samples of pupils in one block
 TOGETHER = 65536  # samples of the light that are transformed together
 
-Light = PixelPupil | PupilStack | RaySpread
+Light = PupilStack | RaySpread
 
 
 @dataclass(frozen=True)
@@ -35,9 +35,9 @@ class PixelWindow:
         return 2 * self.half + 1
 
 
-def half_width(pupil: PixelPupil | RaySpread, pixel_um: float, shift_um: float = 0.0) -> int:
-    """Return how many pixels on either side of the centre hold the rays and the nearest rings around them."""
-    return int(half_widths(pupil, pixel_um, shift_um))
+def half_width(pupil: Light, pixel_um: float, shift_um: float = 0.0) -> int:
+    """Return how many pixels on either side of the centre hold a pupil's rays and the nearest rings around them."""
+    return int(half_widths(pupil, pixel_um, shift_um).item())
 
 
 def half_widths(pupils: Light, pixel_um: float, shifts_um: FloatOrArray = 0.0) -> np.ndarray:
@@ -47,12 +47,12 @@ def half_widths(pupils: Light, pixel_um: float, shifts_um: FloatOrArray = 0.0) -
     return np.maximum(1, np.ceil(reach / pixel_um - 0.5)).astype(int)
 
 
-def samples_across(pupil: PixelPupil | RaySpread, pixel_um: float, finest: float = 1.0) -> int:
+def samples_across(pupil: Light, pixel_um: float, finest: float = 1.0) -> int:
     """Return samples a pixel for a pitch of λ/(2NA)/``finest``: at 1 the energy is exact (Parseval), at 2 all detail.
 
     At least three, unless fewer hold all detail.
     """
-    return int(samples_each(pupil, pixel_um, finest))
+    return int(samples_each(pupil, pixel_um, finest).item())
 
 
 def samples_each(pupils: Light, pixel_um: float, finest: float = 1.0) -> np.ndarray:
@@ -62,14 +62,14 @@ def samples_each(pupils: Light, pixel_um: float, finest: float = 1.0) -> np.ndar
 
 
 def pixel_kernel(
-    pupil: PixelPupil, angle: float, window: PixelWindow, shift_um: tuple[float, float] = (0.0, 0.0)
+    pupil: PupilStack, angle: float, window: PixelWindow, shift_um: tuple[float, float] = (0.0, 0.0)
 ) -> np.ndarray:
     """Return the share of a point's light per pixel, (size, size) float32 of unit sum, row 0 at the top.
 
     The field lies ``angle`` radians from +y towards +x. ``shift_um``: where the point's chief ray
     lands, x and y (up) from the centre of the middle pixel. Raises SamplingError for a window too large.
     """
-    kernel: np.ndarray = pixel_kernels(stack_pupils([pupil]), np.array([angle]), window, np.array([shift_um]))[0]
+    kernel: np.ndarray = pixel_kernels(pupil, np.array([angle]), window, np.array([shift_um]))[0]
     return kernel
 
 
@@ -112,13 +112,12 @@ def _sums_over_pixels(window: PixelWindow, width: float) -> np.ndarray:
     return sums
 
 
-def part_filled_kernel(pupil: PixelPupil, window: PixelWindow, fill_factor: float) -> np.ndarray:
+def part_filled_kernel(pupil: PupilStack, window: PixelWindow, fill_factor: float) -> np.ndarray:
     """Return the share of a point's light that each pixel's sensitive square receives, (size, size) float32, row 0 top.
 
     The field is along +y, the chief ray in the middle pixel's centre; the rest as in `pixel_kernels`.
     """
-    one = stack_pupils([pupil])
-    kernel: np.ndarray = pixel_kernels(one, np.zeros(1), window, np.zeros((1, 2)), fill_factor)[0]
+    kernel: np.ndarray = pixel_kernels(pupil, np.zeros(1), window, np.zeros((1, 2)), fill_factor)[0]
     return kernel
 
 
@@ -141,7 +140,7 @@ def sampled_light(pupils: PupilStack, angles: np.ndarray, window: PixelWindow, s
         )
     # Sample 0 of the transform is the window's lower left one; the samples of a pixel lie symmetrically in it.
     origin = -(count - 1) / 2 * pitch - shifts_um
-    field = _field(turn_pupils(pupils, angles), side, 1 / (side * pitch), origin)
+    field = _field(pupils, angles, side, 1 / (side * pitch), origin)
     plane = scipy.fft.ifft2(field, overwrite_x=True)
     light: np.ndarray = plane.real**2
     light += plane.imag**2
@@ -178,13 +177,13 @@ def rim_gain(half: int, pitch_um: float, period_um: float, reach_um: FloatOrArra
     return gain
 
 
-def _field(pupils: Turned, side: int, step: float, origin: np.ndarray) -> np.ndarray:
+def _field(pupils: PupilStack, angles: np.ndarray, side: int, step: float, origin: np.ndarray) -> np.ndarray:
     """Return complex amplitudes on ``side``² frequencies, (pupils, side, side) complex64, in an inverse FFT's order.
 
     Computed a few rows at a time, so that the intermediate results stay in the processor's cache.
     """
-    half = int(pupils.radius.max() / step) + 1
-    phase, radius = pupils.phase.copy(), pupils.radius[:, None]
+    half, radius = int(pupils.radius.max() / step) + 1, pupils.radius[:, None]
+    phase, forms = turned_powers(pupils, angles)
     phase[:, 1, 0] += pupils.radius * origin[:, 0]
     phase[:, 0, 1] += pupils.radius * origin[:, 1]
     cell = step / radius
@@ -192,7 +191,7 @@ def _field(pupils: Turned, side: int, step: float, origin: np.ndarray) -> np.nda
     table = _powers(axis, phase.shape[-1])
     slopes = np.zeros_like(table)
     slopes[..., 1:] = table[..., :-1] * np.arange(1, phase.shape[-1])
-    across, maps = phase.swapaxes(1, 2) @ table.swapaxes(1, 2), _maps_across(pupils, table, slopes)
+    across, maps = phase.swapaxes(1, 2) @ table.swapaxes(1, 2), _maps_across(forms, table, slopes)
     single, steep, narrow = table.astype(np.float32), slopes.astype(np.float32), cell.astype(np.float32)[..., None]
     field = np.empty((len(axis), 2 * half + 1, 2 * half + 1), np.complex64)
     rows_at_once = max(8, BLOCK // (axis.size or 1))
@@ -203,10 +202,11 @@ def _field(pupils: Turned, side: int, step: float, origin: np.ndarray) -> np.nda
         xi_v, eta_v, *others_v = steep[:, rows] @ maps[:, 0]
         amplitude = _amplitude((xi, eta), np.abs(xi_u * eta_v - xi_v * eta_u), axis, rows)
         if not pupils.mask.clear:
-            _behind_mask(pupils, amplitude, turns, (xi, eta), narrow * np.sqrt(np.abs(xi_u * eta_v - xi_v * eta_u)))
+            width = narrow * np.sqrt(np.abs(xi_u * eta_v - xi_v * eta_u))
+            _behind_mask(pupils, angles, amplitude, turns, (xi, eta), width)
         turns -= np.rint(turns)
         turns = (2 * np.pi * turns).astype(np.float32)
-        if pupils.weight is not None:
+        if pupils.weight.size:
             amplitude *= others.pop()[0]
         for (rim, rim_u), rim_v in zip(others, others_v, strict=False):
             amplitude *= inside_share(rim, np.hypot(rim_u, rim_v) * narrow)
@@ -224,11 +224,10 @@ def _powers(axis: np.ndarray, count: int) -> np.ndarray:
     return table
 
 
-def _maps_across(pupils: Turned, table: np.ndarray, slopes: np.ndarray) -> np.ndarray:
-    """Return (ξ, η, rims, weight) × (value, slope by u) × pupils summed over powers of u, (…, powers of v, columns)."""
-    last = () if pupils.weight is None else (pupils.weight,)
-    forms = np.stack([form.swapaxes(1, 2) for form in (pupils.xi, pupils.eta, *pupils.rims, *last)])[:, None]
-    maps: np.ndarray = (forms @ np.stack([table.swapaxes(1, 2), slopes.swapaxes(1, 2)])).astype(np.float32)
+def _maps_across(forms: np.ndarray, table: np.ndarray, slopes: np.ndarray) -> np.ndarray:
+    """Return forms × (value, slope by u) × pupils summed over powers of u, (…, powers of v, columns)."""
+    across = np.stack([table.swapaxes(1, 2), slopes.swapaxes(1, 2)])
+    maps: np.ndarray = (forms.swapaxes(2, 3)[:, None] @ across).astype(np.float32)
     return maps
 
 
@@ -246,7 +245,12 @@ def _amplitude(point: tuple[np.ndarray, np.ndarray], area: np.ndarray, axis: np.
 
 
 def _behind_mask(
-    pupils: Turned, amplitude: np.ndarray, turns: np.ndarray, point: tuple[np.ndarray, np.ndarray], width: np.ndarray
+    pupils: PupilStack,
+    angles: np.ndarray,
+    amplitude: np.ndarray,
+    turns: np.ndarray,
+    point: tuple[np.ndarray, np.ndarray],
+    width: np.ndarray,
 ) -> None:
     """Put the mask at pupil points, (pupils, rows, columns), into amplitudes and phases; ``width`` of each cell there.
 
@@ -255,7 +259,7 @@ def _behind_mask(
     mask, inside = pupils.mask, amplitude > 0
     xi, eta = (np.where(inside, column, np.float32(0)) for column in point)
     if not mask.round:
-        xi, eta = turned_back(xi, eta, pupils.angles[:, None, None])
+        xi, eta = turned_back(xi, eta, angles[:, None, None])
     amplitude *= open_share(mask, xi, eta, width)
     if mask.shaded:
         amplitude *= mask.amplitude(xi, eta).astype(np.float32)

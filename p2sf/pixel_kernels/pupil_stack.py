@@ -20,41 +20,21 @@ REACH_NODES = 24, 48
 FOLDED = 0.1  # of the light: nodes that lie inside or not count it to some 3 % where the polynomials hold
 SURELY_CLEAR = 0.05  # of 1 − (height/rim)²: a rim that stays above at nodes clips nothing between them
 FORMS = "phase", "eta", "xi", "weight", "rims"
-SHARED = "basis", "method", "numbers", "mask"
 SIZES = "radius", "energy", "reach_um", "residual_waves", "wavelength_um"
 
 
 @dataclass(frozen=True, eq=False)
-class PixelPupil:
-    """Zernike coefficients over u = (f − centre)/``radius``, in the terms of ``basis``: phase and η even in u_x, ξ odd.
+class PupilStack:
+    """One or several pupils of one order: Zernike coefficients over u = (f − centre)/``radius``, in terms of ``basis``.
 
-    ``radius`` cycles/µm; ``reach_um`` how far from the chief ray rays land; ``residual_waves`` RMS phase error left.
+    Every array has an axis of pupils first. Phase and η are even in u_x, ξ odd. ``radius`` cycles/µm; ``reach_um`` how
+    far from the chief ray rays land; ``residual_waves`` RMS phase error left.
     ``weight``: of the light by entrance pupil area, as η; none for the even light of a paraxial pupil. ``rims``,
-    (surfaces, terms of η): 1 − (height/rim)² on each surface whose rim may clip; none where none does.
+    (pupils, surfaces, terms of η): 1 − (height/rim)² on each surface whose rim may clip; none where none does.
     ``energy``: ∫(weight·|∂(ξ, η)/∂f|)² df over the part that no rim clips, which the polynomials must give too.
     ``mask``: what stands in the pupil besides, as the source sees it; its path makes waves by ``wavelength_um``, which
     is negative where the phase counts as W does.
     """
-
-    basis: PupilBasis
-    radius: float
-    phase: np.ndarray
-    eta: np.ndarray
-    xi: np.ndarray
-    weight: np.ndarray
-    rims: np.ndarray
-    energy: float
-    reach_um: float
-    residual_waves: float
-    wavelength_um: float
-    method: str
-    numbers: int
-    mask: PupilMask = CLEAR
-
-
-@dataclass(frozen=True, eq=False)
-class PupilStack:
-    """Several pupils of one order: every array of `PixelPupil` with an axis of pupils first, numbers (pupils,)."""
 
     basis: PupilBasis
     radius: np.ndarray
@@ -74,14 +54,7 @@ class PupilStack:
     def __len__(self) -> int:
         return len(self.radius)
 
-    def one(self, k: int) -> PixelPupil:
-        """Return one of the pupils."""
-        values: dict[str, Any] = {name: getattr(self, name)[k] for name in FORMS}
-        values |= {name: float(getattr(self, name)[k]) for name in SIZES}
-        values |= {name: getattr(self, name) for name in SHARED}
-        return PixelPupil(**values)
-
-    def some(self, chosen: np.ndarray | slice) -> "PupilStack":
+    def some(self, chosen: np.ndarray | slice | list[int]) -> "PupilStack":
         """Return those of the pupils that an index array, a mask or a slice chooses."""
         values: dict[str, Any] = {name: getattr(self, name)[chosen] for name in (*FORMS, *SIZES)}
         return replace(self, **values)
@@ -111,9 +84,8 @@ def terms_of(basis: PupilBasis, form: str) -> Terms:
     return basis.fx if form == "xi" else basis.phase
 
 
-def stack_pupils(pupils: Sequence[PixelPupil | PupilStack]) -> PupilStack:
-    """Return pupils and stacks of them as one stack, of the highest order; all with a weight, or none; of one mask."""
-    stacks = [_as_stack(pupil) for pupil in pupils]
+def stack_pupils(stacks: Sequence[PupilStack]) -> PupilStack:
+    """Return stacks of pupils as one, of the highest order; all with a weight, or none; of one mask."""
     order = max(stack.order for stack in stacks)
     stacks = [stack.of_order(order) for stack in stacks]
     first = stacks[0]
@@ -123,14 +95,6 @@ def stack_pupils(pupils: Sequence[PixelPupil | PupilStack]) -> PupilStack:
         name: np.concatenate([getattr(stack, name) for stack in stacks]) for name in (*FORMS, *SIZES)
     }
     return replace(first, **joined)
-
-
-def _as_stack(pupil: PixelPupil | PupilStack) -> PupilStack:
-    if isinstance(pupil, PupilStack):
-        return pupil
-    values: dict[str, Any] = {name: np.array([getattr(pupil, name)]) for name in (*FORMS, *SIZES)}
-    values |= {name: getattr(pupil, name) for name in SHARED}
-    return PupilStack(**values)
 
 
 def with_reach(pupils: PupilStack, counts: tuple[int, int] = REACH_NODES) -> PupilStack:
@@ -185,38 +149,17 @@ def cutting_rims(pupils: PupilStack) -> np.ndarray:
     return cutting
 
 
-@dataclass(frozen=True, eq=False)
-class Turned:
-    """Pupils as plain powers Σ c[i, j]·uⁱ·vʲ, (pupils, i, j), each rotated to the direction of its field.
+def turned_powers(pupils: PupilStack, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return phase, (pupils, i, j), and maps, (columns, pupils, i, j), as plain powers Σ c[i, j]·uⁱ·vʲ.
 
-    ``weight`` None: 1 everywhere. ``rims``, (surfaces, pupils, i, j): only those that clip. ``angles`` of the fields,
-    (pupils,), to which ``mask`` does not turn.
+    Maps are ξ, η, the rims that clip, and the weight where there is one. Each pupil is that of a field ``angles``
+    (pupils,) radians from +y towards +x: θ becomes θ − angle in every term. Rotation needs no interpolation: it turns
+    cosine terms into sine terms of the same order, and the other way round.
     """
-
-    radius: np.ndarray
-    phase: np.ndarray
-    eta: np.ndarray
-    xi: np.ndarray
-    weight: np.ndarray | None
-    rims: np.ndarray
-    mask: PupilMask
-    wavelength_um: np.ndarray
-    angles: np.ndarray
-
-
-def turn_pupils(pupils: PupilStack, angles: np.ndarray) -> Turned:
-    """Return the pupils of fields ``angles`` (pupils,) radians from +y towards +x: θ becomes θ − angle in every term.
-
-    Rotation needs no interpolation: it turns cosine terms into sine terms of the same order, and the other way round.
-    """
-    basis, forms = pupils.basis, (pupils.phase, pupils.eta, pupils.xi)
-    phase, eta, xi = (
-        _plain(of, form, angles) for of, form in zip((basis.phase, basis.fy, basis.fx), forms, strict=True)
-    )
-    weight = _plain(basis.fy, pupils.weight, angles) if pupils.weight.size else None
-    cutting = pupils.rims[:, cutting_rims(pupils)].swapaxes(0, 1)
-    rims = np.array([_plain(basis.fy, form, angles) for form in cutting])
-    return Turned(pupils.radius, phase, eta, xi, weight, rims, pupils.mask, pupils.wavelength_um, angles)
+    basis, cutting = pupils.basis, pupils.rims[:, cutting_rims(pupils)].swapaxes(0, 1)
+    even = (pupils.eta, *cutting, *[pupils.weight] * bool(pupils.weight.size))
+    maps = [_plain(basis.fx, pupils.xi, angles), *(_plain(basis.fy, form, angles) for form in even)]
+    return _plain(basis.phase, pupils.phase, angles), np.stack(maps)
 
 
 def _plain(terms: Terms, form: np.ndarray, angles: np.ndarray) -> np.ndarray:

@@ -2,7 +2,7 @@
 
 The coefficients are smooth functions of the place on the sensor, of 1/depth and of the wavelength, so that polynomials
 through a few Chebyshev nodes give them all. All points at one distance from an axis of symmetry share one pupil,
-rotated (`pupil_stack.turned`), so that there one column of places is enough.
+rotated (`turned_powers`), so that there one column of places is enough.
 """
 
 from collections.abc import Sequence

@@ -19,7 +19,7 @@ from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.pixel_kernels.frequency_grid import pupil_map
 from p2sf.pixel_kernels.pixels import PixelWindow, rim_gain, sampled_light
-from p2sf.pixel_kernels.pupil_stack import PixelPupil, stack_pupils
+from p2sf.pixel_kernels.pupil_stack import PupilStack
 from p2sf.pupil.plane_waves import pupil_amplitude
 from p2sf.pupil.seen_mask import mask_seen
 from p2sf.pupil.vignetting import pupil_nodes
@@ -38,17 +38,15 @@ RADII, AZIMUTHS, PATCH = (20, 50, 100, 200), 12, 8  # Airy radii; patches on eac
 NODES = 300, 1800  # at 200 Airy radii a wave turns 122 times from the middle to the rim, 1530 about it
 
 
-def pupil_of(lens: Lens) -> PixelPupil:
+def pupil_of(lens: Lens) -> PupilStack:
     """Return the pupil with all that stands in it."""
     return replace(pupil_map(lens, SOURCE, "fitted", None), mask=mask_seen(lens, SOURCE))
 
 
-def picture(pupil: PixelPupil, side: int = SIDE) -> np.ndarray:
+def picture(pupil: PupilStack, side: int = SIDE) -> np.ndarray:
     """Return the light at samples λ/4NA apart, row 0 at the bottom, true to FARTHEST Airy radii."""
     pitch = 1 / (4 * pupil.radius)
-    light = sampled_light(stack_pupils([pupil]), np.zeros(1), PixelWindow((side - 1) // 2, pitch, 1), np.zeros((1, 2)))[
-        0
-    ]
+    light = sampled_light(pupil, np.zeros(1), PixelWindow((side - 1) // 2, pitch, 1), np.zeros((1, 2)))[0]
     half, middle = min(int(FARTHEST * AIRY / pupil.radius / pitch) + 1, (side - 1) // 2), (side - 1) // 2
     near = slice(middle - half, middle + half + 1)
     light[near, near] *= rim_gain(half, pitch, side * pitch, pupil.reach_um)
@@ -89,7 +87,7 @@ def tails(lens: Lens, radii: tuple[int, ...] = RADII) -> list[float]:
 
 
 @using_threads(1)
-def ratio(pupil: PixelPupil, side: int = SIDE, rounds: int = ROUNDS) -> float:
+def ratio(pupil: PupilStack, side: int = SIDE, rounds: int = ROUNDS) -> float:
     """Return the CPU time of a picture over that of one complex64 FFT, the least of rounds in turn."""
     plane, least = np.ones((side, side), np.complex64), [np.inf, np.inf]
     for _ in range(rounds):

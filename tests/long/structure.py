@@ -48,8 +48,8 @@ FEW_LINES = 45
 HOLD_A_PHASE = set(
     """
     Coefficients DesignedPupil Differentials ExactDatabase FittedDatabase FittedPencil FrequencyPupil NodeGrid OpenRays
-    Parts PixelPupil PointFit PointPupil Pupil PupilMap PupilNodes PupilSamples PupilStack PupilTable Rays
-    Turned WavefrontMap WavefrontSamples Waves ZernikeFit _Pupil _Waves
+    Parts PointFit PointPupil Pupil PupilMap PupilNodes PupilSamples PupilStack PupilTable Rays
+    WavefrontMap WavefrontSamples Waves ZernikeFit _Pupil _Waves
     """.split()
 )
 PHASE_FIELDS = {"phase", "waves", "wavefront", "opd", "opd_waves", "path"}
