@@ -23,8 +23,10 @@ def flatness_of(values: np.ndarray) -> float:
 
     R² compares errors with what the picture varies, so that of the same relative L2 error 1 − R² is this times as much.
     """
-    varying = float(np.square(values - values.mean()).sum())
-    return min(float(np.square(values).sum()) / varying, FLATTEST) if varying else 1.0
+    values = values.astype(float, copy=False)
+    apart = values - values.mean()
+    varying = float(np.vdot(apart, apart))
+    return min(float(np.vdot(values, values)) / varying, FLATTEST) if varying else 1.0
 
 
 def _unit_sum(values: np.ndarray) -> np.ndarray:

@@ -394,8 +394,8 @@ def render(
     if method != AUTO:
         return psf_of(asked)
     psf = psf_of(chosen(asked))
-    error, allowed, flatness = psf.predicted_error, 1 - options.min_r2, flatness_of(psf.values)
-    if error is None or not error / flatness <= allowed < error:
+    error, allowed = psf.predicted_error, 1 - options.min_r2
+    if error is None or error <= allowed or error > allowed * (flatness := flatness_of(psf.values)):
         return psf
     return psf_of(chosen(asked, ROOM * flatness))
 
