@@ -19,12 +19,12 @@ from numpy.polynomial.chebyshev import chebint, chebvander
 
 from p2sf.conventions import write_protect
 from p2sf.disc.domain import PupilDomain
-from p2sf.disc.open_part import open_intervals, places_between
 from p2sf.disc.phasors import cosine_sine
 from p2sf.disc.quadrature import MOST_KEPT, even_count, gauss_legendre
 from p2sf.errors import SamplingError
 from p2sf.metrics.frequency_pupil import FrequencyPupil, landing_um, reach_of
 from p2sf.metrics.mask_edges import box_edges, slope_waves
+from p2sf.metrics.transfer import columns_of
 
 RADII = 128  # of a tabulated curve
 BEYOND = 6.0  # λ/NA beyond the outermost ray up to which light is summed; farther out there are the wings of an edge
@@ -34,7 +34,8 @@ NODES, NODES_LEAST = (
     0.7,
     9,
 )  # per harmonic of the phase over half the pupil, and more; see `landing_energy` for the margins
-FEWEST_LINES, LINE_EXCESS = 96, 1.5  # of a pupil with corners or a mask; nodes in an angle per even node
+FEWEST_LINES = 48  # of a pupil without edges inside, at Gauss–Chebyshev points
+FEWEST_EDGED, LINE_EXCESS = 96, 1.5  # behind a mask, between whose edges lines stand as Gauss nodes in an angle
 CIRCLES, DIRECTIONS = 0.8, 0.75  # of those that interference of opposite edges would need
 SINGLE, FINE_GRID = 3e-5, 1.25  # relative error and oversampling of the FFT
 DOUBLE, FINEST_GRID = 1e-10, 2.0  # the same of nodes in double precision
@@ -276,15 +277,17 @@ def _nodes(pupil: FrequencyPupil, centre_um: tuple[float, float], waves: float) 
 
     Those of a symmetric pupil at fx < 0 mirror the others.
     """
-    light, dark = box_edges(pupil)
-    lines = max(FEWEST_LINES, ceil(LINE_EXCESS * _node_count(waves)))
-    places, weights = pupil.domain.of_lines(*places_between([*light, *dark], lines))
+    count = _node_count(waves)
+    if pupil.plain:
+        columns = columns_of(pupil, (max(FEWEST_LINES, count), count), [], [])
+    else:
+        columns = columns_of(pupil, (max(FEWEST_EDGED, ceil(LINE_EXCESS * count)), count), *box_edges(pupil))
     parts = []
-    for low, high in zip(*open_intervals(light, dark, places), strict=True):
+    for low, high in zip(columns.low, columns.high, strict=True):
         length = (high - low)[:, None] / 2
         node, weight = gauss_legendre(_node_count(waves * float(length.max())))
         y = (low + high)[:, None] / 2 + length * node
-        parts.append(_column_nodes(pupil, centre_um, (places, y), weights[:, None] * length * weight))
+        parts.append(_column_nodes(pupil, centre_um, (columns.places, y), columns.weights[:, None] * length * weight))
     x, y, wave = (np.concatenate(column) for column in zip(*(part[:3] for part in parts), strict=True))
     total = sum(part[3] for part in parts)
     images = pupil.domain.images

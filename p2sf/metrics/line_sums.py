@@ -17,7 +17,7 @@ from p2sf.errors import Cancelled
 from p2sf.metrics.frequency_pupil import FrequencyPupil
 from p2sf.threads import never
 
-AT_ONCE = 2**14  # samples of the lines in one block, so that a block stays in the cache
+AT_ONCE = 2**15  # samples of the lines in one block, so that a block stays in the cache
 MARGIN = 2  # samples beyond the box at either end
 END = 3  # samples at the end of an interval whose weights differ from 1
 ENDS = np.arange(END)[:, None]
@@ -63,7 +63,7 @@ def line_sums(pupil: FrequencyPupil, lines: Lines, cancelled: Stop = never) -> t
         some = slice(start, start + count)
         held = _Samples(low[:, some], high[:, some], size)
         modulus, wave = light.on(some, held.weight > 0)
-        near += [held.lacking(wave), held.lacking(modulus)]
+        near += held.lacking(wave)
         wave *= held.weight
         modulus *= held.weight
         own.add(wave)
@@ -157,16 +157,20 @@ class _Samples:
         weight = np.bincount(self._at, self._upper * self._lower, shape[1] * size)
         self.weight = weight.reshape(shape[1], size).astype(np.float32)
 
-    def lacking(self, values: np.ndarray) -> np.ndarray:
-        """Return what sums of W·W′ over values, (lines, size), lack of those of U·L′ at the lags below END."""
-        found = np.empty(END, complex)
-        values = values.ravel()[self._at]
+    def lacking(self, wave: np.ndarray) -> np.ndarray:
+        """Return what sums of W·W′ lack of those of U·L′ at the lags below END, (2, END): over waves and their moduli.
+
+        ``wave``: (lines, size).
+        """
+        found = np.empty((2, END), complex)
+        values = wave.ravel()
         for lag in range(END):
             first = self._near[self._place[self._near] >= lag]
-            second = first - lag
+            second, at = first - lag, self._at[first]
             factor = self._upper[first] * self._lower[second]
             factor *= 1 - self._lower[first] * self._upper[second]
-            found[lag] = (factor * values[first] * values[second].conj()).sum()
+            product = values[at] * values[at - lag].conj()
+            found[:, lag] = factor @ product, factor @ np.abs(product)
         return found
 
 

@@ -118,7 +118,7 @@ def columns_of(pupil: FrequencyPupil, counts: Counts, light: Curves, dark: Curve
     angle = (np.arange(lines // len(pupil.domain.images)) + 0.5) * (pi / lines)
     places = np.cos(angle)
     low, high = pupil.columns(places)
-    return Lines(samples, places, np.sin(angle), low[None], high[None])
+    return Lines(samples, places, np.sin(angle) * (pi / places.size), low[None], high[None])
 
 
 def spreads(
