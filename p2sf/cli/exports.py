@@ -11,13 +11,14 @@ from p2sf.cli.screen import percent_line, print_json, warn
 from p2sf.database.files.place import is_url
 from p2sf.database.render import Sampling
 from p2sf.files.writing import plain
+from p2sf.io.fits import FITS
 from p2sf.parameters import check_samples
 
 if TYPE_CHECKING:
     from p2sf.export.psf_cube import Cube
 
 # The first ending of a format is the one a file gets when no --output is given.
-ENDINGS = {"iset": (".mat",), "fits": (".fits", ".fit", ".fts"), "tiff": (".tif", ".tiff"), "csv": (".csv",)}
+ENDINGS = {"iset": (".mat",), "fits": FITS, "tiff": (".tif", ".tiff"), "csv": (".csv",)}
 
 
 @dataclass(frozen=True)

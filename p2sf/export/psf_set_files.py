@@ -7,17 +7,16 @@ import os
 from collections.abc import Callable
 from itertools import product
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 import numpy as np
 
-from p2sf.errors import ExportError
-from p2sf.export.fits import METRES_PER_UM, axis_keywords, write_image
+from p2sf.export.fits import METRES_PER_UM, axis_tables
 from p2sf.export.psf_set import PsfSet
-from p2sf.export.tiff import write_pages
+from p2sf.export.tiff import write_hyperstack
 from p2sf.figures.record import CONVENTIONS
-from p2sf.files.writing import plain, write_beside
-from p2sf.io.fits_psf import META
+from p2sf.files.writing import by_ending, plain, write_arrays, write_beside
+from p2sf.io.fits import Card, axis_cards, write_image
 from p2sf.io.record import csv_head
 from p2sf.version import program_version
 
@@ -30,19 +29,13 @@ def write_psf_set(psfs: PsfSet, path: PathLike, meta: dict[str, Any] | None = No
 
     ``meta``, any facts as JSON has them, is stored with it: of a .csv in a line before its table.
     """
-    check_set_ending(path)
-    return WRITERS[Path(path).suffix.lower()](psfs, path, plain(meta or {}))
+    write, facts = by_ending(path, WRITERS), plain(about(psfs)) | plain(meta or {})
+    return write_beside(path, lambda handle: write(handle, psfs, facts))
 
 
 def check_set_ending(path: PathLike) -> None:
     """Raise ExportError for an ending that no set has."""
-    if Path(path).suffix.lower() not in WRITERS:
-        raise ExportError(
-            '{path}: the ending "{ending}" is unknown; choose {choices}',
-            path=str(path),
-            ending=Path(path).suffix,
-            choices=tuple(WRITERS),
-        )
+    by_ending(path, WRITERS)
 
 
 def about(psfs: PsfSet) -> dict[str, object]:
@@ -75,51 +68,44 @@ def arrays(psfs: PsfSet) -> dict[str, np.ndarray]:
     }
 
 
-def _told(psfs: PsfSet, meta: Meta) -> str:
-    return json.dumps(plain(about(psfs)) | meta, ensure_ascii=False)
+def _write_npz(handle: BinaryIO, psfs: PsfSet, facts: Meta) -> None:
+    write_arrays(handle, arrays(psfs) | {"method": psfs.methods}, facts)
 
 
-def _write_npz(psfs: PsfSet, path: PathLike, meta: Meta) -> Path:
-    found: dict[str, Any] = {**arrays(psfs), "method": psfs.methods, "meta": np.array(_told(psfs, meta))}
-    return write_beside(path, lambda handle: np.savez_compressed(handle, **found))
-
-
-def _write_mat(psfs: PsfSet, path: PathLike, meta: Meta) -> Path:
+def _write_mat(handle: BinaryIO, psfs: PsfSet, facts: Meta) -> None:
     from scipy.io import savemat
 
-    facts = {"meta": plain(about(psfs)), "record": _told(psfs, meta)}
-    found = {**arrays(psfs), "method": psfs.methods.astype(object), **facts}
-    return write_beside(path, lambda handle: savemat(handle, found, do_compression=True, oned_as="row"))
+    told = {"meta": plain(about(psfs)), "record": json.dumps(facts, ensure_ascii=False)}
+    found = {**arrays(psfs), "method": psfs.methods.astype(object), **told}
+    savemat(handle, found, do_compression=True, oned_as="row")
 
 
-def _write_tiff(psfs: PsfSet, path: PathLike, meta: Meta) -> Path:
+def _write_tiff(handle: BinaryIO, psfs: PsfSet, facts: Meta) -> None:
     figures = {name: plain(values) for name, values in arrays(psfs).items() if name != "psf"}
-    return write_pages(psfs, path, {**about(psfs), **meta, **figures, "method": psfs.methods.tolist()})
+    write_hyperstack(handle, psfs, {**facts, **figures, "method": psfs.methods.tolist()})
 
 
-def _write_fits(psfs: PsfSet, path: PathLike, meta: Meta) -> Path:
-    header: list[tuple[str, object, str]] = [
+def _write_fits(handle: BinaryIO, psfs: PsfSet, facts: Meta) -> None:
+    header: list[Card] = [
         ("PIXELSCL", psfs.pixel_um * METRES_PER_UM, "[m] sensor pitch per pixel"),
         ("PIXUNIT", "meter", "unit of PIXELSCL"),
         ("FILLFACT", psfs.grid.fill_factor, "sensitive part of a pixel's area"),
         ("NORMALIZ", "all light of the point", "PSF normalization"),
         ("BUNIT", "fraction", "of the point's light, per pixel"),
-        *axis_keywords(psfs),
+        *axis_cards(psfs.values.shape, psfs.pixel_um),
         ("INSTRUME", psfs.lens.name[:60], "lens"),
         ("AIM", psfs.lens.aim, "exact rays fill the stop/paraxial pupil"),
-        ("CREATOR", f"p2sf {program_version()}", "software"),
-        (META, json.dumps(plain(about(psfs)) | meta), "facts as JSON"),
     ]
-    rows = table(psfs)
-    columns = {str(name): np.array([row[k] for row in rows[1:]]) for k, name in enumerate(rows[0])}
-    return write_image(psfs, path, header, {"FIGURES": columns})
+    names, *rows = table(psfs)
+    figures = [(str(name), np.array(values), "") for name, values in zip(names, zip(*rows, strict=True), strict=True)]
+    write_image(handle, psfs.values, header, facts, axis_tables(psfs) | {"FIGURES": figures})
 
 
-def _write_csv(psfs: PsfSet, path: PathLike, meta: Meta) -> Path:
+def _write_csv(handle: BinaryIO, psfs: PsfSet, facts: Meta) -> None:
     text = io.StringIO()
-    text.write(csv_head(plain(about(psfs)) | meta))
+    text.write(csv_head(facts))
     csv.writer(text, lineterminator="\n").writerows(table(psfs))
-    return write_beside(path, lambda handle: handle.write(text.getvalue().encode()))
+    handle.write(text.getvalue().encode())
 
 
 def table(psfs: PsfSet) -> list[list[object]]:
@@ -149,7 +135,7 @@ def moments(values: np.ndarray, pixel_um: float) -> tuple[float, float, float]:
 
 
 HOLDING = (".npz", ".tif", ".tiff", ".fits")  # the ``meta`` of `write_psf_set`
-WRITERS: dict[str, Callable[[PsfSet, PathLike, Meta], Path]] = {
+WRITERS: dict[str, Callable[[BinaryIO, PsfSet, Meta], None]] = {
     ".npz": _write_npz,
     ".tif": _write_tiff,
     ".tiff": _write_tiff,

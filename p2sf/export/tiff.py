@@ -4,25 +4,21 @@ import json
 import os
 from itertools import product
 from pathlib import Path
+from typing import Any, BinaryIO
 
 from p2sf.export.psf_cube import Cube, PsfArray
 from p2sf.figures.record import CONVENTIONS
 from p2sf.files.writing import write_beside
-from p2sf.version import program_version
-
-# Row 0 is the lowest y; a reader that honours the TIFF tag turns the picture up.
-ORIENTATION = (274, "H", 1, 4, True)
+from p2sf.io.tiff import write_pages
 
 
 def write_tiff(cube: Cube, path: str | os.PathLike[str]) -> Path:
     """Write a cube as float32 pages, depth as frames, field as slices, wavelength as channels; ExportError."""
-    return write_pages(cube, path, cube.record)
+    return write_beside(path, lambda handle: write_hyperstack(handle, cube, cube.record))
 
 
-def write_pages(cube: PsfArray, path: str | os.PathLike[str], about: dict[str, object]) -> Path:
-    """Write PSFs as the pages of an ImageJ hyperstack, ``about`` in its Info; ExportError."""
-    import tifffile
-
+def write_hyperstack(handle: BinaryIO, cube: PsfArray, about: dict[str, Any]) -> None:
+    """Write PSFs as the pages of an ImageJ hyperstack, ``about`` in its Info."""
     info = {"conventions": CONVENTIONS, "pixel_um": cube.pixel_um, **about}
     metadata = {
         "axes": "TZCYX",
@@ -33,19 +29,7 @@ def write_pages(cube: PsfArray, path: str | os.PathLike[str], about: dict[str, o
         "Labels": labels(cube),
         "Info": json.dumps(info, ensure_ascii=False),
     }
-    per_um = 1 / cube.pixel_um
-    return write_beside(
-        path,
-        lambda handle: tifffile.imwrite(
-            handle,
-            cube.values,
-            imagej=True,
-            resolution=(per_um, per_um),
-            metadata=metadata,
-            extratags=[ORIENTATION],
-            software=f"p2sf {program_version()}",
-        ),
-    )
+    write_pages(handle, cube.values, 1 / cube.pixel_um, imagej=True, metadata=metadata)
 
 
 def labels(cube: PsfArray) -> list[str]:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 from math import isfinite
 from os import PathLike
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, TypeVar
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from p2sf.files.atomic import replaceable, write_whole
 from p2sf.files.reasons import reason
 from p2sf.messages import Message
 
+Kind = TypeVar("Kind")
 LARGEST_READ = 64_000_000  # bytes of a file that are searched for a mark: some hundred pages as PDF
 FREE_SPACE = Message("free some space or choose another disk")
 WRITABLE_FOLDER = Message("choose a folder you may write to")
@@ -50,6 +51,25 @@ def write_beside(path: str | PathLike, write: Callable[[BinaryIO], object]) -> P
     except OSError as error:
         raise _unwritable(path, error) from error
     return Path(path)
+
+
+def write_arrays(handle: BinaryIO, arrays: Mapping[str, np.ndarray], meta: Mapping[str, Any] | None = None) -> None:
+    """Write arrays as a compressed .npz, with ``meta`` as the JSON text of another one, where there is any."""
+    facts = {} if meta is None else {"meta": np.array(json.dumps(meta))}
+    np.savez_compressed(handle, **arrays, **facts)  # type: ignore[arg-type]  # its stub takes them for allow_pickle
+
+
+def by_ending(path: str | PathLike[str], kinds: Mapping[str, Kind]) -> Kind:
+    """Return what belongs to the ending of a path, such as what writes the file; ExportError for an unknown one."""
+    ending = Path(path).suffix
+    if ending.lower() not in kinds:
+        raise ExportError(
+            '{path}: the ending "{ending}" is unknown; choose {choices}',
+            path=str(path),
+            ending=ending,
+            choices=tuple(sorted(kinds)),
+        )
+    return kinds[ending.lower()]
 
 
 def check_place(path: str | PathLike) -> None:

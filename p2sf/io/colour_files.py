@@ -5,11 +5,8 @@ import os
 from pathlib import Path
 from typing import BinaryIO
 
-import numpy as np
-
-from p2sf.errors import ExportError
 from p2sf.figures.colour_psf import ColourPsf, record
-from p2sf.files.writing import plain, write_beside
+from p2sf.files.writing import by_ending, plain, write_arrays, write_beside
 from p2sf.version import program_version
 
 
@@ -19,21 +16,13 @@ def write_colour_psf(found: ColourPsf, path: str | os.PathLike[str], meta: dict)
     ``meta`` (see `p2sf.io.record.describe`) is stored with it. Raises ExportError for another ending or a
     file that cannot be written.
     """
-    write = COLOUR_WRITERS.get(Path(path).suffix.lower())
-    if write is None:
-        raise ExportError(
-            '{path}: a colour PSF has no ending "{ending}"; choose {choices}',
-            path=str(path),
-            ending=Path(path).suffix,
-            choices=tuple(COLOUR_WRITERS),
-        )
+    write = by_ending(path, COLOUR_WRITERS)
     full = {**plain(meta), "colour_psf": plain(record(found))}
     return write_beside(path, lambda handle: write(handle, found, full))
 
 
 def _write_npz(handle: BinaryIO, found: ColourPsf, meta: dict) -> None:
-    facts = np.array(json.dumps(meta))
-    np.savez_compressed(handle, xyz=found.xyz, x_um=found.x_um, y_um=found.y_um, meta=facts)
+    write_arrays(handle, {"xyz": found.xyz, "x_um": found.x_um, "y_um": found.y_um}, meta)
 
 
 def _write_png(handle: BinaryIO, found: ColourPsf, meta: dict) -> None:

@@ -1,4 +1,4 @@
-"""One PSF to .npz, .tiff, .csv and a .png picture, and its samples and facts from the first three."""
+"""One PSF to .npz, .tiff, .csv, .fits and a .png picture, and its samples and facts from all but the last."""
 
 import json
 import os
@@ -11,29 +11,23 @@ from p2sf.errors import ExportError
 from p2sf.figures.psf_data import PsfData
 from p2sf.figures.record import CONVENTIONS
 from p2sf.files.reading import LONGEST_TEXT, check_unpacked, first_page, open_file, parse_json, read_arrays, size_of
-from p2sf.files.writing import write_beside
-from p2sf.io.record import caption, with_facts
+from p2sf.files.writing import by_ending, write_arrays, write_beside
+from p2sf.io.fits import FITS, META, axis_cards, first_picture, write_image
+from p2sf.io.record import caption, csv_head, with_facts
+from p2sf.io.tiff import write_pages
 from p2sf.version import program_version
 
 UM_PER_CM = 1e4
 CSV_HEAD = 4  # lines before the numbers of a .csv
-ORIENTATION_TAG, BOTTOM_LEFT = 274, 4  # TIFF 6.0, section 8: row 0 is the picture's bottom
 
 
 def write_psf(psf: PsfData, path: str | os.PathLike[str], meta: dict | None = None) -> Path:
-    """Write one PSF, shape (y, x), as .npz, .tiff, .csv or .png by the ending of ``path``; return the path.
+    """Write one PSF, shape (y, x), as .npz, .tiff, .csv, .fits or .png by the ending of ``path``; return the path.
 
     `Psf.record` is stored with it, and ``meta``, any facts as JSON has them. Raises ExportError for an unknown ending,
     a stack of PSFs, or a file that cannot be written; an old file then stays untouched.
     """
-    write = WRITERS.get(Path(path).suffix.lower())
-    if write is None:
-        raise ExportError(
-            '{path}: the ending "{ending}" is unknown; choose {choices}',
-            path=str(path),
-            ending=Path(path).suffix,
-            choices=tuple(sorted(WRITERS)),
-        )
+    write = by_ending(path, WRITERS)
     if psf.values.ndim != 2:
         raise ExportError(
             "{path}: one file holds one PSF, this stack has shape ({shape}); write them singly",
@@ -45,30 +39,28 @@ def write_psf(psf: PsfData, path: str | os.PathLike[str], meta: dict | None = No
 
 
 def _write_npz(handle: BinaryIO, psf: PsfData, meta: dict) -> None:
-    np.savez_compressed(handle, psf=psf.values, x_um=psf.x_um, y_um=psf.y_um, meta=np.array(json.dumps(meta)))
+    write_arrays(handle, {"psf": psf.values, "x_um": psf.x_um, "y_um": psf.y_um}, meta)
 
 
 def _write_tiff(handle: BinaryIO, psf: PsfData, meta: dict) -> None:
-    import tifffile
+    facts = {"description": json.dumps(meta), "metadata": None, "resolutionunit": "CENTIMETER"}
+    write_pages(handle, psf.values.astype(np.float32), UM_PER_CM / psf.pixel_um, **facts)
 
-    per_cm = UM_PER_CM / psf.pixel_um
-    tifffile.imwrite(
-        handle,
-        psf.values.astype(np.float32),
-        resolution=(per_cm, per_cm),
-        resolutionunit="CENTIMETER",
-        description=json.dumps(meta),
-        metadata=None,
-        extratags=[(ORIENTATION_TAG, "H", 1, BOTTOM_LEFT, True)],
-        software=f"p2sf {program_version()}",
-    )
+
+def _write_fits(handle: BinaryIO, psf: PsfData, meta: dict) -> None:
+    header = [
+        *axis_cards(psf.values.shape, psf.pixel_um),
+        ("BUNIT", "fraction", "of the light in the window, per pixel"),
+        ("METHOD", psf.method, "method of computing the PSF"),
+    ]
+    write_image(handle, np.asarray(psf.values, dtype=float), header, meta)
 
 
 def _write_csv(handle: BinaryIO, psf: PsfData, meta: dict) -> None:
     lines = [
         f"# point spread function, {CONVENTIONS}",
         "# first row: x in µm; first column: y in µm; cells: fraction of the window's light",
-        f"# meta: {json.dumps(meta)}",
+        csv_head(meta).rstrip("\n"),
         _csv_row("y_um\\x_um", psf.x_um),
         *(_csv_row(repr(y), row) for y, row in zip(psf.y_um.tolist(), psf.values, strict=True)),
     ]
@@ -104,7 +96,23 @@ def _read_csv(path: str | os.PathLike[str]) -> tuple[np.ndarray, Any]:
     return cells[:, 1:], parse_json(meta)
 
 
-WRITERS = {".npz": _write_npz, ".tiff": _write_tiff, ".tif": _write_tiff, ".csv": _write_csv, ".png": _write_png}
-READERS = {".npz": _read_npz, ".tiff": _read_tiff, ".tif": _read_tiff, ".csv": _read_csv}
+def _read_fits(path: str | os.PathLike[str]) -> tuple[np.ndarray, Any]:
+    values, header = first_picture(path)
+    return values.astype(float), parse_json(header[META])
+
+
+WRITERS = {
+    ".npz": _write_npz,
+    **dict.fromkeys((".tiff", ".tif"), _write_tiff),
+    ".csv": _write_csv,
+    ".fits": _write_fits,
+    ".png": _write_png,
+}
+READERS = {
+    ".npz": _read_npz,
+    **dict.fromkeys((".tiff", ".tif"), _read_tiff),
+    ".csv": _read_csv,
+    **dict.fromkeys(FITS, _read_fits),
+}
 """Return the samples and what else the file states; they raise what numpy, the parsers of JSON and `open` do."""
 ENDINGS = tuple(WRITERS)

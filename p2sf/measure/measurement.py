@@ -3,7 +3,6 @@
 Measurements are kept in files, and two of them compared.
 """
 
-import json
 import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -17,7 +16,7 @@ from p2sf.errors import Cancelled, P2SFError, RequestError
 from p2sf.figures.record import versions
 from p2sf.files.atomic import DAMAGED
 from p2sf.files.reading import parse_json, read_arrays
-from p2sf.files.writing import write_beside
+from p2sf.files.writing import write_arrays, write_beside
 from p2sf.lens.lens import Lens
 from p2sf.measure.fitting.frame_fit import FrameFit, Tell, fit_frame, share_of
 from p2sf.measure.fitting.frame_terms import (
@@ -411,8 +410,7 @@ def write_measurement(found: Measurement, path: str | os.PathLike[str]) -> Path:
         meta["unknowns"] = {name: model.unit(name) for name in model.unknowns}
         meta["height_mm"] = model.height_mm
         meta["lens"] = model.lens.name if model.lens is not None else None
-    arrays["meta"] = np.array(json.dumps(meta | {"versions": versions()}))
-    return write_beside(path, lambda handle: np.savez_compressed(handle, **arrays))  # type: ignore[arg-type]  # allow_pickle is none of them
+    return write_beside(path, lambda handle: write_arrays(handle, arrays, meta | {"versions": versions()}))
 
 
 def read_measurement(path: str | os.PathLike[str]) -> tuple[dict[str, np.ndarray], dict]:

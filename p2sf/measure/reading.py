@@ -11,15 +11,14 @@ from p2sf.errors import ExportError, RequestError
 from p2sf.files.atomic import DAMAGED
 from p2sf.files.reading import check_samples, read_array, read_arrays
 from p2sf.files.reasons import ContentRefusedError, OversizedError, reason
-from p2sf.io.fits_psf import first_picture
+from p2sf.io.fits import FITS, first_picture
 from p2sf.io.photo_files import READABLE, photo_of, read_samples
 from p2sf.measure.frame import Frame, FrameGeometry, Noise, calibrate
 from p2sf.measure.listings import read_listing
 from p2sf.messages import Message
 from p2sf.parameters import check_positive
-from p2sf.psf.reading import read_psf, read_psf_fits
+from p2sf.psf.reading import read_psf
 
-FITS = (".fits", ".fit", ".fts")
 ENDINGS = (*READABLE, *FITS, ".npy", ".npz", ".txt")
 CHANNELS = {"red": 0, "green": 1, "blue": 2}
 FULL = {"8": 255.0, "16": 65535.0}
@@ -102,7 +101,7 @@ def read_counts(path: str | os.PathLike[str], channel: str = "green", encoding: 
         if listing.kind != "psf":
             raise RequestError("{path} lists a wavefront, not a PSF; list the PSF of the same point", path=str(path))
         return Counts(listing.values[::-1], listing.pitch_um, psf=True, integrated=False, chief_mm=listing.chief_mm)
-    own = _own_psf(path, ending)
+    own = _own_psf(path)
     if own is not None:
         return own
     if ending in (".npy", ".npz"):
@@ -113,10 +112,10 @@ def read_counts(path: str | os.PathLike[str], channel: str = "green", encoding: 
     return _from_photo(path, channel, encoding)
 
 
-def _own_psf(path: str | os.PathLike[str], ending: str) -> Counts | None:
+def _own_psf(path: str | os.PathLike[str]) -> Counts | None:
     """Return the PSF in a file that this program wrote, None for other files."""
     try:
-        psf, meta = read_psf_fits(path) if ending in FITS else read_psf(path)
+        psf, meta = read_psf(path)
         field = meta.get("setup", {}).get("field_deg")
     except (ExportError, AttributeError):
         return None

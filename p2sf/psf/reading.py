@@ -1,16 +1,14 @@
-"""One PSF from a .npz, .tiff, .csv or FITS file that this program wrote."""
+"""One PSF from a .npz, .tiff, .csv or .fits file that this program wrote."""
 
 import os
-from pathlib import Path
 
 import numpy as np
 
 from p2sf.errors import ExportError
 from p2sf.figures.psf_data import FIGURES, OWN, PsfFigures
 from p2sf.files.atomic import DAMAGED
-from p2sf.files.reading import parse_json
 from p2sf.files.reasons import reason
-from p2sf.io.fits_psf import META, astropy_fits, first_picture
+from p2sf.files.writing import by_ending
 from p2sf.io.psf_files import READERS
 from p2sf.messages import Message
 from p2sf.psf.result import Psf
@@ -22,21 +20,16 @@ OF_THE_FILE = ("psf", "state")
 
 
 def read_psf(path: str | os.PathLike[str]) -> tuple[Psf, dict]:
-    """Return the PSF in a .npz, .tiff or .csv that this program wrote, and its meta.
+    """Return the PSF in a .npz, .tiff, .csv or .fits that this program wrote, and its meta.
 
-    Exact from .npz and .csv, float32 from .tiff. Raises ExportError for a file that is missing or of another kind.
+    Exact but for the float32 of .tiff. Raises ExportError for a file that is missing or of another kind.
     """
-    read = READERS.get(Path(path).suffix.lower())
-    if read is None:
-        raise ExportError(
-            '{path}: no PSF can be read from the ending "{ending}"; choose {choices}',
-            path=str(path),
-            ending=Path(path).suffix,
-            choices=tuple(sorted(READERS)),
-        )
+    read = by_ending(path, READERS)
     try:
         values, meta = read(path)
         return psf_of_file(values, meta), meta
+    except ExportError:  # a ValueError, such as that astropy is not installed
+        raise
     except OSError as error:
         raise ExportError(
             "{path} cannot be read, {reason}; check the name",
@@ -46,19 +39,6 @@ def read_psf(path: str | os.PathLike[str]) -> tuple[Psf, dict]:
     except (ValueError, *DAMAGED) as error:
         raise ExportError(
             "{path} is not a PSF that this program wrote; export it again with p2sf psf -o", path=str(path)
-        ) from error
-
-
-def read_psf_fits(path: str | os.PathLike[str]) -> tuple[Psf, dict]:
-    """Return the PSF of a FITS file that `write_psf_fits` wrote, exactly, and its meta. Raises ExportError."""
-    astropy_fits()  # since an ExportError is a ValueError
-    try:
-        values, header = first_picture(path)
-        meta = parse_json(header[META])
-        return psf_of_file(values.astype(float), meta), meta
-    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
-        raise ExportError(
-            "{path} is not a PSF that this program wrote as FITS; save the snapshot again", path=str(path)
         ) from error
 
 

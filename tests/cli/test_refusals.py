@@ -149,7 +149,7 @@ def test_an_obscuration_of_a_codev_file_is_told(word):
 
 
 def test_a_psf_of_an_unknown_ending_is_refused_with_the_known(tmp_path):
-    with pytest.raises(ExportError, match=r'no PSF can be read from the ending "\.doc"; choose'):
+    with pytest.raises(ExportError, match=r'the ending "\.doc" is unknown; choose'):
         read_psf(tmp_path / "a.doc")
 
 

@@ -95,7 +95,7 @@ def test_a_colour_psf_of_no_wavelengths_or_ending_is_refused(tmp_path):
     with pytest.raises(RequestError, match="0 wavelengths for a colour PSF; give a whole number from 1"):
         polychromatic.colour_psf(lens, source, white, window, count=0)
     made = polychromatic.colour_psf(lens, source, white, window, "seidel", 1)
-    with pytest.raises(ExportError, match=r'a colour PSF has no ending "\.doc"; choose \.npz'):
+    with pytest.raises(ExportError, match=r'the ending "\.doc" is unknown; choose \.npz'):
         write_colour_psf(made, tmp_path / "a.doc", {})
 
 

@@ -14,7 +14,7 @@ from p2sf.database.fitted_build import build_fitted
 from p2sf.database.render import database_psf
 from p2sf.lens.lens import with_aim
 from p2sf.lens.source import Source
-from p2sf.psf.reading import read_psf, read_psf_fits
+from p2sf.psf.reading import read_psf
 from tests.support.reference import DATA
 
 FILES = DATA / "older_versions"
@@ -92,7 +92,7 @@ def test_a_snapshot_is_the_same_psf_in_every_format(version):
     files = FILES / version
     psf, _ = read_psf(files / "snapshot_moved.npz")
     assert psf.values.tolist() == expected(version)["pictures"]["moved"]["middle"]
-    for again, _ in (read_psf(files / "snapshot_moved.csv"), read_psf_fits(files / "snapshot_moved.fits")):
+    for again, _ in (read_psf(files / f"snapshot_moved.{ending}") for ending in ("csv", "fits")):
         assert np.array_equal(again.values, psf.values)
         assert {name: getattr(again, name) for name in STATED} == {name: getattr(psf, name) for name in STATED}
     single, _ = read_psf(files / "snapshot_moved.tiff")

@@ -13,12 +13,12 @@ import pytest
 import p2sf
 from p2sf.cli import main
 from p2sf.database.render import Sampling
-from p2sf.io.fits_psf import write_psf_fits
+from p2sf.io.psf_files import write_psf
 from p2sf.io.record import describe
 from p2sf.lens.lens import indices
 from p2sf.lensfile.library import shipped_lenses
 from p2sf.paraxial.first_order import abcd
-from p2sf.psf.reading import read_psf_fits
+from p2sf.psf.reading import read_psf
 from p2sf.setting import Request, set_up
 
 CAMERA = p2sf.Camera("tessar", focus_mm=1500, f_number=6.7, blades=7)
@@ -58,7 +58,7 @@ def test_pictures_and_fits_say_the_same(psf, tmp_path):
     with Image.open(psf.save(tmp_path / "psf.png")) as picture:
         assert json.loads(picture.text["Description"]) == psf.record
     pytest.importorskip("astropy")
-    again, meta = read_psf_fits(write_psf_fits(psf, tmp_path / "psf.fits", {"state": "{}"}))
+    again, meta = read_psf(write_psf(psf, tmp_path / "psf.fits", {"state": "{}"}))
     check(meta, psf)
     assert (again.record, meta["state"]) == (psf.record, "{}")
 

@@ -120,7 +120,7 @@ def _in_tiff(path: PathLike) -> Any:
 
 
 def _in_fits(path: PathLike) -> Any:
-    from p2sf.io.fits_psf import read_meta
+    from p2sf.io.fits import read_meta
 
     return read_meta(path).get(ENTRY)
 

@@ -1,10 +1,8 @@
 """What a snapshot writes: the PSF's data or a picture, with the state that made it inside. No Qt in here."""
 
 import os
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 from p2sf.errors import ExportError
 from p2sf.figures.pixel_light import critical_pixel_um, fine_grid
@@ -103,7 +101,7 @@ def write_data(live: Live | None, path: PathLike, state: State | None = None) ->
         )
     check_snapshot(state, path)
     meta = {**describe(request_setup(live.state)), ENTRY: state_text(state)}
-    return _writer(path)(light_of(live), path, meta)
+    return write_psf(light_of(live), path, meta)
 
 
 def light_of(live: Live) -> Psf:
@@ -123,15 +121,6 @@ def light_of(live: Live) -> Psf:
         lambda count, pitch: psf_of(replace(request, window=(count, pitch))), pixels, psf.pixel_um, finest
     )
     return replace(light, azimuth_deg=psf.azimuth_deg)
-
-
-def _writer(path: PathLike) -> Callable[[Psf, PathLike, dict[str, Any]], Path]:
-    """Return the function that writes a PSF to a file of this name."""
-    if Path(path).suffix.lower() != ".fits":
-        return write_psf
-    from p2sf.io.fits_psf import write_psf_fits  # it imports databases, which the start of the window need not wait for
-
-    return write_psf_fits
 
 
 def write_picture(state: State, png: bytes, path: PathLike) -> Path:

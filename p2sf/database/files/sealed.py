@@ -15,7 +15,7 @@ import numpy as np
 from p2sf.errors import DatabaseError
 from p2sf.files.reading import read_arrays, read_bytes
 from p2sf.files.reasons import reason
-from p2sf.files.writing import write_beside
+from p2sf.files.writing import write_arrays, write_beside
 
 SEAL = b"p2sf sha256 "
 DIGITS = 64
@@ -30,7 +30,7 @@ def write_sealed(path: str | PathLike[str], arrays: dict[str, np.ndarray]) -> Pa
 def seal(arrays: dict[str, np.ndarray]) -> bytes:
     """Return the bytes of a sealed .npz."""
     archive = io.BytesIO()
-    np.savez_compressed(archive, **arrays)  # type: ignore[arg-type]  # its stub takes them for allow_pickle
+    write_arrays(archive, arrays)
     comment_length = (len(SEAL) + DIGITS).to_bytes(2, "little")
     unsealed = archive.getvalue()[:-2] + comment_length + SEAL  # a zip ends with the length of its comment, here 0
     return unsealed + _digest(unsealed)

@@ -19,7 +19,7 @@ from p2sf.io.psf_files import write_psf
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.psf.methods import render
-from p2sf.psf.reading import read_psf, read_psf_fits
+from p2sf.psf.reading import read_psf
 from p2sf.psf.seidel import seidel_psf
 from p2sf.spans import depth_nodes
 from p2sf_explorer.application.display import NO_DISPLAY, display_problem
@@ -55,7 +55,7 @@ def test_a_snapshot_alone_reopens_identically(busy, tmp_path, ending):
 
 def exported(path) -> np.ndarray:
     """Return the samples in a snapshot of data."""
-    return (read_psf_fits if path.suffix == ".fits" else read_psf)(path)[0].values
+    return read_psf(path)[0].values
 
 
 def drop(window, path) -> None:
