@@ -1,7 +1,7 @@
 """Figures as the lessons and lectures tell them, read out of their texts and worked out by other means.
 
 Rays and waves are those of `tests/support/rays/plain_lens.py`, the rest is closed formulas: of the program nothing is
-asked but its texts, and one picture. A figure has to be right to its last digit. German texts are held to the same
+asked but its texts, and two pictures. A figure has to be right to its last digit. German texts are held to the same
 figures by `test_translations.py` and `tests/explorer/course/test_lectures.py`.
 """
 
@@ -15,9 +15,12 @@ from scipy.optimize import brentq, minimize_scalar
 from scipy.special import j1, jn_zeros
 
 from p2sf_explorer.compute import live as compute
+from p2sf_explorer.compute.views import image
+from p2sf_explorer.compute.views.photos import scene_values
 from p2sf_explorer.course.lectures import FOLDER as LECTURES
 from p2sf_explorer.lessons.lesson import FOLDER as LESSONS
-from p2sf_explorer.lessons.lesson import read_lesson
+from p2sf_explorer.lessons.lesson import lesson_files, read_lesson
+from p2sf_explorer.lessons.task import NumericAnswer
 from tests.support.airy import circle_energy
 from tests.support.rays.plain_lens import PlainLens, bars_contrast, circle_mtf, read_lens
 from tests.support.waves import r_squared
@@ -71,6 +74,30 @@ def achromat(f_number: float, wavelength_um: float = D) -> float:
 def bars(f_number: float) -> float:
     keeps = lens("achromat_f6", f_number=f_number).patch().contrast
     return 100 * bars_contrast(keeps, 50, 1000 / (D * f_number) - 1e-6)
+
+
+def close_foci(name: str, field_deg: float) -> tuple[float, float]:
+    """Return where rays 1 µm beside the chief ray meet it, µm behind the sensor: tangential and sagittal."""
+    one, step = lens(name, 0.55), 1e-3
+    chief = one.height_for(0.0, field_deg)
+    two = one.trace(chief + np.array([-step, step]), field_deg)
+    aside = one.trace(np.array([chief]), field_deg, step)
+    tangential = -np.diff(two.place[1]) / np.diff(two.direction[1] / two.direction[2])
+    sagittal = -aside.place[0] * aside.direction[2] / aside.direction[0]
+    return float(1000 * tangential.item()), float(1000 * sagittal.item())
+
+
+def far_out(shift_mm: float) -> float:
+    """Return how far from the axis the ray through the rim lands behind the achromat's focus, mm."""
+    one = lens("achromat_f6").shifted(shift_mm)
+    return abs(float(one.trace(np.array([one.highest])).place[1, 0]))
+
+
+@cache
+def zero_of_star(least: float, most: float) -> float:
+    """Return at how many line pairs per millimetre the MTF of the achromat is least, 600 µm out of focus."""
+    star = lens("achromat_f6").shifted(0.6).patch(spherical=True)
+    return float(minimize_scalar(star.contrast, bounds=(least, most), method="bounded", options={"xatol": 0.01}).x)
 
 
 def distortion(name: str, field_deg: float) -> float:
@@ -165,6 +192,8 @@ CASSEGRAIN = 0.546074 * 10  # λN, µm
 
 FIGURES = {
     "lecture_1": {
+        "one wavelength λ long, here # µm": lambda: [D],
+        "an error of a quarter wave is # µm": lambda: [D / 4],
         "At f/6 this is # µm.": lambda: [RING * D * 6],
         "D is # mm, and the angle is about # seconds": lambda: [
             2 * lens("achromat_f6").rim,
@@ -188,6 +217,8 @@ FIGURES = {
             strehl(0, 0.25),
         ],
         "exp(−0.395) = #.": lambda: [np.exp(-((0.2 * np.pi) ** 2))],
+        "has to fall from # waves": lambda: [abs(gauss(3).third_order(10)["w31"])],
+        "Here # waves or so are left": lambda: [abs(gauss(6).third_order(10)["w31"])],
     },
     "lecture_3": {
         "is # µm at f/3, # µm at f/8 and # µm at f/22.": lambda: [
@@ -269,7 +300,13 @@ FIGURES = {
         ],
         "Wd = −W40, brings it to #.": lambda: [strehl(1, -1)],
     },
+    "05_coma": {
+        "the cube root of two, #, in aperture": lambda: [2 ** (1 / 3)],
+        "At f/#. Twice the field": lambda: [2.4 * (np.tan(np.radians(6)) / np.tan(np.radians(3))) ** (1 / 3)],
+    },
     "06_astigmatism": {
+        "meet # µm behind the sensor's usual place": lambda: [close_foci("cooke_triplet", 14)[0]],
+        "in the strip below, to # µm, where": lambda: [close_foci("cooke_triplet", 14)[1]],
         "here # µm in front of the sensor": lambda: [singlet_foci()[0]],
         "sagittal focus lies # µm in front of the Petzval": lambda: [singlet_foci()[1] - singlet_foci()[0]],
         "# µm, three times as far": lambda: [singlet_foci()[2] - singlet_foci()[0]],
@@ -305,7 +342,7 @@ FIGURES = {
         ],
     },
     "12_depth_and_database": {
-        "a candle at 10 m is # waves": lambda: [-lens("double_gauss_28", depth=10000.0).defocus],
+        "Wd of a candle at 10 m is # waves": lambda: [lens("double_gauss_28", depth=10000.0).defocus],
     },
     "14_hubble": {
         "it is # µm too low": lambda: [hubble_edge_um()],
@@ -351,6 +388,12 @@ FIGURES = {
         ],
         "A sine pattern keeps # % there.": lambda: [achromat(17)],
         "is # %. The finer": lambda: [bars(17)],
+        "a point makes a patch # mm wide": lambda: [2 * far_out(0.6)],
+        "At # mm from the middle the star has # line pairs": lambda: [
+            36 / (2 * np.pi * zero_of_star(10, 16)),
+            zero_of_star(10, 16),
+        ],
+        "A second grey ring lies farther in, at # mm": lambda: [36 / (2 * np.pi * zero_of_star(20, 28))],
     },
 }
 
@@ -468,3 +511,69 @@ def test_ten_waves_are_shown_by_the_method_that_the_step_holds_to():
     fine = np.linspace(0, radius.max(), 4000)
     light = np.interp(radius, fine, own.light(fine))
     assert r_squared(shown.values, light) > 0.999
+
+
+def test_the_spokes_jump_where_the_step_says_so():
+    """The picture follows the star outside the first ring, opposes it inside, and follows it inside the second."""
+    lesson = read_lesson(LESSONS / "21_contrast.md")
+    state = lesson.state([step.title for step in lesson.steps].index("A star of spokes"))
+    asked = image.question(compute.live(state)).question
+    found, star = image.coarse(asked).after[..., 1], scene_values("siemens_star", (image.ROWS, image.COLUMNS))[..., 1]
+    rows, columns = (np.arange(n) - (n - 1) / 2 for n in star.shape)
+    radius = np.hypot(columns, rows[:, None]) * state.photo.pixel_um / 1000
+    alike = []
+    for least, most in ((0.55, 0.70), (0.28, 0.38), (0.19, 0.21)):
+        ring = (radius > least) & (radius < most)
+        alike.append(np.corrcoef(found[ring], star[ring])[0, 1])
+    assert alike[0] > 0.5 and alike[1] < -0.5 and alike[2] > 0.3
+
+
+# Answers that the tasks foresee, as the slips that their hints name would give them.
+SLIPS = {
+    "l1-airy": lambda: [
+        2 * RING * 0.486 * 11,
+        0.486 * 11,
+        RING / 2 * 0.486 * 11,
+        RING * D * 11,
+        RING * 0.486 * 6,
+    ],
+    "l2-strehl": lambda: [
+        np.exp(-0.2 * np.pi),
+        np.exp(-(0.1**2)),
+        1 - (0.2 * np.pi) ** 2,
+        0.1,
+        np.exp(-((2 * np.pi / 14) ** 2)),
+    ],
+    "l3-w40": lambda: [gauss().third_order(14)["w40"] / k for k in (2, 4, 8, 1)],
+    "l4-limit": lambda: [
+        1 / (RING * 0.00055 * 8),
+        1 / (0.55 * 8),
+        2 / (0.00055 * 8),
+        0.5 / (0.00055 * 8),
+        1 / (0.00055 * 6),
+    ],
+    "l5-nyquist": lambda: [1000 / 10, 1000 / 40, 1 / 20, 10],
+    "l6-hubble": lambda: [2.2 / 0.55, 2.2, 2 * 2.2, 2.2 * 0.55, 4 * 2.2 / 0.55],
+}
+RIGHT = {
+    "l1-airy": lambda: RING * 0.486 * 11,
+    "l2-strehl": lambda: strehl(0, 0.1 * np.sqrt(12)),
+    "l3-w40": lambda: gauss(6).third_order(14)["w40"],
+    "l4-limit": lambda: 1 / (0.00055 * 8),
+    "l5-nyquist": lambda: 1000 / 20,
+    "l6-hubble": lambda: 2 * hubble_edge_um() / 0.55,
+}
+
+
+def numeric_tasks() -> dict[str, NumericAnswer]:
+    lectures = (read_lesson(path) for path in lesson_files(LECTURES))
+    tasks = (step.task for lecture in lectures for step in lecture.steps if step.task)
+    return {task.name: task.answer for task in tasks if isinstance(task.answer, NumericAnswer)}
+
+
+@pytest.mark.parametrize(("name", "answer"), numeric_tasks().items())
+def test_answers_and_foreseen_slips_are_what_they_are_said_to_be(name, answer):
+    (right,) = answer.parts
+    assert RIGHT[name]() == pytest.approx(right.number, abs=right.tolerance)
+    for (slip, hint), value in zip(answer.wrong, SLIPS[name](), strict=True):
+        assert value == pytest.approx(slip.number, abs=slip.tolerance), hint
