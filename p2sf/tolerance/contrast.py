@@ -14,22 +14,22 @@ Behind a mask both D include its amplitude, and rows of points are split where a
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.polynomial.chebyshev import chebder, chebval2d, chebvander2d
 
 from p2sf.conventions import UM_PER_MM
+from p2sf.disc.disc_function import DiscFunction
 from p2sf.disc.mask_nodes import mask_nodes
 from p2sf.disc.open_part import edges_of, places_between
 from p2sf.disc.phasors import cosine_sine
-from p2sf.disc.quadrature import gauss_legendre, whole_disc
+from p2sf.disc.quadrature import gauss_legendre
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.parameters import check_positive
 from p2sf.pupil.seen_mask import mask_seen
 from p2sf.raytrace.pencil import reaching
-from p2sf.tolerance.differentials import FINE, FINEST, Differentials
+from p2sf.tolerance.differentials import FINEST, Differentials
 
-ORDER = 10  # of the polynomials that describe the pupil
+NODES = 16, 32  # radii and directions of the rays that give the pupil, as polynomials of order 15
 SIZES = (12, 16), (18, 24), (26, 34), (38, 50), (56, 72)  # rows and columns of pairs
 DISTORTION = 1.1  # largest excess of the pupil's radius over that extrapolated from the scale at its centre
 SETTLED = 1e-3  # by which the lens's contrast may change from one size to the next, which is then used
@@ -58,36 +58,33 @@ class Pairs:
 
 
 class _PupilMap:
-    """Frequencies and amplitude over the stop, as polynomials T_i(ξ)·T_j(η) through many rays."""
+    """Frequencies and amplitude over the stop, by rays through the nodes of functions over the disc."""
 
     def __init__(self, known: Differentials, field: int):
-        xi, eta, _ = whole_disc(*FINE)
-        rays = reaching(known.lens, known.sources[field], xi, eta)
-        places = np.indices((ORDER + 1, ORDER + 1))
-        kept = places.sum(0) <= ORDER
-        rows = chebvander2d(xi, eta, (ORDER, ORDER)).reshape(xi.size, *kept.shape)[:, kept]
-        self._tables = np.zeros((3, *kept.shape))
-        self._tables[:, kept] = np.linalg.lstsq(rows, np.stack([rays.fx, rays.fy, rays.amplitude], axis=1))[0].T
-        self._slopes = [[chebder(table, axis=axis) for axis in (0, 1)] for table in self._tables[:2]]
-        self.mask = mask_seen(known.lens, known.sources[field])
+        lens, source, nodes = known.lens, known.sources[field], known.lens.pupil_domain.nodes(NODES)
+        rays = reaching(lens, source, nodes.xi, nodes.eta)
+        self._map, self._light = (
+            DiscFunction(np.stack(columns), NODES, odd, lens.pupil_domain)
+            for columns, odd in (((rays.fx, rays.fy), (True, False)), ((rays.amplitude,), (False,)))
+        )
+        self.mask = mask_seen(lens, source)
         nodes = mask_nodes(self.mask, *FINEST).unfolded()
-        xi, eta = nodes.xi, nodes.eta
-        density = np.square(self.amplitude(np.stack([xi, eta]))) / np.abs(np.linalg.det(self.jacobian(xi, eta)))
+        place = np.stack([nodes.xi, nodes.eta])
+        density = np.square(self.amplitude(place)) / np.abs(np.linalg.det(self.jacobian(*place)))
         self.square = float((nodes.weight * np.square(nodes.amplitude) * density).sum()) * np.pi * nodes.share
 
     def at(self, place: np.ndarray) -> np.ndarray:
         """Return the frequencies (2, points) at points (2, points) of the stop."""
-        return np.stack([chebval2d(place[0], place[1], table) for table in self._tables[:2]])
+        return self._map.at(*place)
 
     def amplitude(self, place: np.ndarray) -> np.ndarray:
         """Return the field of unit pupil area at points, without that of the mask."""
-        amplitude: np.ndarray = chebval2d(place[0], place[1], self._tables[2])
+        amplitude: np.ndarray = self._light.at(*place)[0]
         return amplitude
 
     def jacobian(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
         """Return ∂(fx, fy)/∂(ξ, η), (points, 2, 2)."""
-        rows = [np.stack([chebval2d(xi, eta, slope) for slope in both]) for both in self._slopes]
-        return np.stack(rows).transpose(2, 0, 1)
+        return np.stack(self._map.slopes_at(xi, eta), axis=-1).swapaxes(0, 1)
 
     def reaches(self, frequency: np.ndarray) -> bool:
         """Return whether two points of the stop may differ by a frequency, allowing for the pupil's distortion."""
