@@ -113,7 +113,8 @@ def test_a_line_is_a_row_of_the_picture():
 
 @pytest.mark.parametrize("even", [True, False])
 @pytest.mark.parametrize(
-    ("rows", "columns", "apart"), [(40, 41, 0.0), (33, 64, 0.0), (33, 64, 0.37), (182, 190, 0.0), (182, 190, 0.37)]
+    ("rows", "columns", "apart"),
+    [(40, 41, 0.0), (33, 64, 0.0), (33, 64, 0.37), (182, 190, 0.0), (182, 190, 0.37), (513, 1, 0.0), (513, 1, 0.37)],
 )
 def test_many_nodes_are_the_same_sum_as_few(even, rows, columns, apart):
     """The non-uniform FFT against sums of parts so small that each is a product of matrices."""

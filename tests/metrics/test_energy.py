@@ -35,6 +35,15 @@ def test_a_perfect_lens_has_rayleighs_energy():
     np.testing.assert_allclose(found, circle_energy(radius / UNIT), atol=2e-5)
 
 
+def test_wings_that_are_not_summed_fall_with_the_radius():
+    """As Rayleigh's mean does: J₀² + J₁² is 2/πv with ripples of 1/4v of it (DLMF 10.17.3), and the sum ends at v = 38."""
+    radius = UNIT * np.array([8.0, 16.0, 40.0])
+    pupil = PupilPart(pupil_of_coefficients(waves()))
+    outside = 1 - energy_in([pupil], "seidel", radius, wings=True).fraction
+    assert outside * radius == pytest.approx([outside[0] * radius[0]] * 3, rel=1e-9)
+    assert outside == pytest.approx(1 - circle_energy(radius / UNIT), rel=0.02)
+
+
 def axial_radius_um(figures, share: float) -> float:
     """Return the radius that holds a share on the axis of a round lens: plain Hankel sums over radii of the rays."""
     rays = figures.rays.denser(int(3 * figures.rays.slope) + 60, 8)
