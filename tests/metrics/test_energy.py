@@ -36,7 +36,7 @@ def test_a_perfect_lens_has_rayleighs_energy():
 
 
 def test_wings_that_are_not_summed_fall_with_the_radius():
-    """As Rayleigh's mean does: J₀² + J₁² is 2/πv with ripples of 1/4v of it (DLMF 10.17.3), and the sum ends at v = 38."""
+    """As Rayleigh's mean does: J₀² + J₁² is 2/πv with ripples of 1/4v of it (DLMF 10.17.3); a sum ends at v = 38."""
     radius = UNIT * np.array([8.0, 16.0, 40.0])
     pupil = PupilPart(pupil_of_coefficients(waves()))
     outside = 1 - energy_in([pupil], "seidel", radius, wings=True).fraction
