@@ -53,31 +53,28 @@ UNMOVED = Placement()
 
 @dataclass(frozen=True, eq=False)
 class OpenRays:
-    """Rays of one source through the open part of the stop, all (rays,), at points (ξ, η) of it.
+    """Rays of one source through the open part of the stop, of the lens or of a build, all (rays,).
 
     ``share``: of the open area, ``weight``: of the field at the focus, some of both negative where a mask has vanes or
     blades. ``phase``: waves, including that of a mask, and ``wavefront`` the same on the reference sphere, as in
-    `wavefront_of`. ``fx``, ``fy``: frequencies, cycles per µm.
+    `wavefront_of`; of a build without piston and tilt, the phase at the focus.
     """
 
-    xi: np.ndarray
-    eta: np.ndarray
+    rays: Rays
     share: np.ndarray
     weight: np.ndarray
     phase: np.ndarray
     wavefront: np.ndarray
-    fx: np.ndarray
-    fy: np.ndarray
 
     @property
     def frequencies(self) -> np.ndarray:
         """Return the frequencies in which the phase of a shifted image is linear, (2, rays)."""
-        return np.stack([self.fx, self.fy])
+        return np.stack([self.rays.fx, self.rays.fy])
 
     @property
     def axes(self) -> np.ndarray:
         """Return the coordinates in which a tilt of the wavefront is linear, (2, rays)."""
-        return np.stack([self.xi, self.eta])
+        return np.stack([self.rays.xi, self.rays.eta])
 
 
 _COLUMNS = {
@@ -171,8 +168,7 @@ def open_rays(lens: Lens, source: Source, counts: tuple[int, int] = FINE) -> Ope
     rays = all_reaching(rays_through(lens, source, nodes))
     weight, share = rays.share * rays.amplitude, np.asarray(rays.share)
     wavefront = wavefront_of(lens, source, rays) + rays.mask_path_um / source.wavelength_um
-    each = share / share.sum(), weight / weight.sum(), rays.phase, wavefront, rays.fx, rays.fy
-    return OpenRays(rays.xi, rays.eta, *each)
+    return OpenRays(rays, share / share.sum(), weight / weight.sum(), rays.phase, wavefront)
 
 
 def wavefront_of(lens: Lens, source: Source, rays: Rays) -> np.ndarray:

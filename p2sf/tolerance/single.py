@@ -6,7 +6,7 @@ its compensators are adjusted anew. The difference is the error of the form.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -76,18 +76,6 @@ def form_errors(form: Builds, alone: Builds, criterion: Criterion, compensators:
     return excess
 
 
-@dataclass(frozen=True, eq=False)
-class _Waves:
-    """The waves of one field of a build, (rays,), without piston and tilt; ``reached`` are its rays.
-
-    ``phase``: at the focus, without a tilt along the build's own frequencies. ``wavefront``: as displayed.
-    """
-
-    reached: Rays
-    phase: np.ndarray
-    wavefront: np.ndarray
-
-
 class _Opening:
     """Rays of every field through the open points of the stop, ``still`` those of the lens without errors."""
 
@@ -97,25 +85,25 @@ class _Opening:
         each = zip(self.still, known.sources, strict=True)
         self._on_sphere = [wavefront_of(known.lens, source, rays) for rays, source in each]
 
-    def waves(self, errors: np.ndarray) -> list[_Waves]:
+    def waves(self, errors: np.ndarray) -> list[OpenRays]:
         """Return the waves of every field of a build."""
         built, reached = self._trace_opening(errors)
         return [self._straight(k, built, rays) for k, rays in enumerate(reached)]
 
-    def slopes(self, there: list[_Waves], errors: np.ndarray, place: int) -> list[_Waves]:
+    def slopes(self, there: list[OpenRays], errors: np.ndarray, place: int) -> list[OpenRays]:
         """Return the change of the waves ``there`` of a build with these errors per unit of a compensator."""
         one = self._known.tolerances[place]
         step = max(STEP * one.amount, LEAST_STEP)
         if one.kind == "thickness" and one.first == len(self._known.lens.surfaces):
             built = build(self._known.lens, self._known.tolerances, errors.tolist())
-            moved = [with_moved_sensor(built, waves.reached, step) for waves in there]
+            moved = [with_moved_sensor(built, waves.rays, step) for waves in there]
             more = [self._straight(k, *each) for k, each in enumerate(moved)]
         else:
             beside = errors.copy()
             beside[place] += step
             more = self.waves(beside)
         return [
-            _Waves(a.reached, (a.phase - b.phase) / step, (a.wavefront - b.wavefront) / step)
+            replace(a, phase=(a.phase - b.phase) / step, wavefront=(a.wavefront - b.wavefront) / step)
             for a, b in zip(more, there, strict=True)
         ]
 
@@ -123,18 +111,18 @@ class _Opening:
         known = self._known
         built = build(known.lens, known.tolerances, errors.tolist()) if errors.any() else known.lens
         each = zip(known.sources, self.fine, strict=True)
-        return built, [through_build(known.lens, built, source, rays.xi, rays.eta) for source, rays in each]
+        return built, [through_build(known.lens, built, source, *open_.axes) for source, open_ in each]
 
-    def _straight(self, field: int, built: Lens, rays: Rays) -> _Waves:
+    def _straight(self, field: int, built: Lens, rays: Rays) -> OpenRays:
         """Return the waves of a field by its rays; those of the open rays include the mask's path."""
         open_ = self.fine[field]
         on_sphere = wavefront_of(built, self._known.sources[field], rays) - self._on_sphere[field]
-        return _Waves(
-            rays,
-            without_tilt(
-                open_.phase + rays.phase - self.still[field].phase, open_.weight, np.stack([rays.fx, rays.fy])
-            ),
-            without_tilt(open_.wavefront + on_sphere, open_.share, open_.axes),
+        reached = replace(open_, rays=rays)
+        phase = open_.phase + rays.phase - self.still[field].phase
+        return replace(
+            reached,
+            phase=without_tilt(phase, open_.weight, reached.frequencies),
+            wavefront=without_tilt(open_.wavefront + on_sphere, open_.share, open_.axes),
         )
 
 
@@ -169,44 +157,42 @@ class _ExactBuilds:
             stretch = np.einsum("e,efx->fx", found.errors[number], self._known.stretch)
             self._form.contrast(np.stack(change)[None], stretch[None], found.mtf[number : number + 1])
 
-    def _write(self, found: Builds, number: int, opening: _Opening) -> list[_Waves]:
+    def _write(self, found: Builds, number: int, opening: _Opening) -> list[OpenRays]:
         """Write all figures except the contrast by the rays of an opening, and return its waves."""
         waves = self._set(found.errors[number], opening)
-        quality = [_quality(one, rays) for one, rays in zip(waves, opening.fine, strict=True)]
-        found.rms_waves[number], found.strehl[number] = np.transpose(quality)
+        found.rms_waves[number], found.strehl[number] = np.transpose([_quality(one) for one in waves])
         each = zip(waves, opening.still, strict=True)
-        found.boresight_um[number] = [one.reached.chief_um - still.chief_um for one, still in each]
+        found.boresight_um[number] = [one.rays.chief_um - still.chief_um for one, still in each]
         return waves
 
-    def _set(self, errors: np.ndarray, opening: _Opening) -> list[_Waves]:
+    def _set(self, errors: np.ndarray, opening: _Opening) -> list[OpenRays]:
         """Return the waves after adjusting the compensators in ``errors``, which are nearly adjusted already."""
         waves, places = opening.waves(errors), self._places
         if not places:
             return waves
         by_place = [opening.slopes(waves, errors, place) for place in places]
         slopes = [np.stack([one.wavefront for one in field]) for field in zip(*by_place, strict=True)]
-        each = list(zip(slopes, waves, opening.fine, strict=True))
-        normal = sum(slope * rays.share @ slope.T for slope, _, rays in each)
-        step = -np.linalg.solve(normal, sum(slope @ (rays.share * one.wavefront) for slope, one, rays in each))
+        each = list(zip(slopes, waves, strict=True))
+        normal = sum(slope * one.share @ slope.T for slope, one in each)
+        step = -np.linalg.solve(normal, sum(slope @ (one.share * one.wavefront) for slope, one in each))
         errors[list(places)] += step
         of_phase = [np.stack([one.phase for one in field]) for field in zip(*by_place, strict=True)]
         return [
-            _Waves(one.reached, one.phase + step @ phase, one.wavefront + step @ slope)
+            replace(one, phase=one.phase + step @ phase, wavefront=one.wavefront + step @ slope)
             for one, phase, slope in zip(waves, of_phase, slopes, strict=True)
         ]
 
 
-def _smooth(form: FieldForm, waves: _Waves) -> bool:
+def _smooth(form: FieldForm, waves: OpenRays) -> bool:
     """Return whether the form's polynomials describe the difference of a wavefront from the lens's."""
     change = waves.wavefront - form.still
     rest = change - form.polynomials(waves.wavefront) @ form.terms
     return bool(form.mean_square(rest) <= SMOOTH**2 * form.mean_square(waves.wavefront))
 
 
-def _quality(waves: _Waves, rays: OpenRays) -> tuple[float, float]:
+def _quality(waves: OpenRays) -> tuple[float, float]:
     """Return the RMS and the Strehl ratio, as in `Builds`."""
-    rms = float(np.sqrt(max(rays.share @ waves.wavefront**2, 0.0)))
+    rms = float(np.sqrt(max(waves.share @ waves.wavefront**2, 0.0)))
     if rms > SUMMED_RMS:
         return rms, 0.0
-    frequencies = np.stack([waves.reached.fx, waves.reached.fy])
-    return rms, float(strehl_ratios(waves.phase[None], rays.weight, frequencies)[0])
+    return rms, float(strehl_ratios(waves.phase[None], waves.weight, waves.frequencies)[0])
