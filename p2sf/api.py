@@ -8,8 +8,6 @@ quantity is converted to the unit that the name of its parameter ends in.
 
 import os
 import warnings
-from dataclasses import replace
-from functools import partial
 from typing import TYPE_CHECKING, Any, Literal
 
 from numpy.typing import ArrayLike
@@ -137,16 +135,14 @@ def render(
     >>> p2sf.render(lens, p2sf.Source(field_deg=10), camera=p2sf.Camera(focus_mm=3000, f_number=5.6)).method
     'spherical'
     """
-    from p2sf.io.record import describe
     from p2sf.psf.methods import PsfOptions
-    from p2sf.psf.pixel_integrals import render_integrated
+    from p2sf.psf.pixel_integrals import render_setup
     from p2sf.psf.result import warn_of_window
 
     setup = set_up_source(lens, source, camera)
     with using_threads(threads):
         options = PsfOptions(quality, min_r2, clip)
-        psf = render_integrated(setup.lens, setup.source, method, pixels, pixel_um, options, integrated)
-    psf = replace(psf.with_figures(provenance=partial(describe, setup)), azimuth_deg=setup.source.azimuth_deg)
+        psf = render_setup(setup, method, pixels, pixel_um, options, integrated)
     return warn_of_window(psf, 5)
 
 

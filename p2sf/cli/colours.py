@@ -14,7 +14,6 @@ from p2sf.figures.colour_psf import ColourPsf, record
 from p2sf.io.colour_files import COLOUR_ENDINGS, write_colour_psf
 from p2sf.io.record import describe
 from p2sf.messages import ParameterName
-from p2sf.psf.methods import PsfOptions
 from p2sf.psf.pixel_integrals import render_integrated
 from p2sf.psf.polychromatic import colour_psf, suitable_pitch_um
 from p2sf.psf.result import IN_WINDOW
@@ -35,14 +34,13 @@ def colour(setup: Setup, spectrum: str, picture: Picture, output: Path | None, a
         )
     pitch = suitable_pitch_um(setup.lens, setup.source, wanted, picture.side, setup.stop)
     window = picture.side, picture.pixel_um or pitch
-    method = picture.method or "auto"
     found = colour_psf(
         setup.lens,
         setup.source,
         wanted,
         window,
         lambda lens, source, pixels, pixel_um: render_integrated(
-            lens, source, method, pixels, pixel_um, PsfOptions(min_r2=picture.min_r2, clip=picture.clip)
+            lens, source, picture.described_by, pixels, pixel_um, picture.options
         ),
     )
     if output:

@@ -1,7 +1,5 @@
 """`p2sf psf`: one point spread function, computed and written to a file."""
 
-from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -14,17 +12,17 @@ from p2sf.cli.picture_options import ONE, USUAL, Picture, SetOptions
 from p2sf.cli.screen import FILLED, Row, heading, print_json, print_table, warn
 from p2sf.colour.spectrum import WORDS
 from p2sf.database.accuracy import DatabaseAccuracy
-from p2sf.errors import P2SFError, RequestError, SamplingError
+from p2sf.errors import P2SFError, RequestError
 from p2sf.figures.measures import Energy
 from p2sf.figures.psf_data import facts
 from p2sf.figures.window import centroid, radius_of_energy
 from p2sf.files.writing import plain
 from p2sf.io.psf_files import ENDINGS, write_psf
-from p2sf.io.record import describe
 from p2sf.lensfile.library import find_lens
 from p2sf.messages import Message, ParameterName
 from p2sf.metrics.measures import energy_in, parts_of
-from p2sf.psf.methods import AUTO, PsfOptions, by_six
+from p2sf.psf.methods import AUTO, by_six
+from p2sf.psf.pixel_integrals import render_setup
 from p2sf.psf.prediction import ALLOWED, TOO_FAR, USELESS
 from p2sf.psf.result import IN_WINDOW, Psf
 from p2sf.setting import Request, Setup, set_up
@@ -90,7 +88,8 @@ def _of_one_colour(lens: str, request: Request, picture: Picture, output: Path |
         setup = set_up(find_lens(lens), request)
         if not as_json:
             caution(setup, picture.seidel and picture.sampling != "fft")
-        result, title = render(setup, picture).with_figures(provenance=partial(describe, setup)), heading(setup)
+        result = render_setup(setup, picture.described_by, picture.side, picture.pixel_um, picture.options)
+        title = heading(setup)
         accuracy = None
         aim, energy = setup.lens.aim, energy_of(setup, result.method, picture.clip)
     if output:
@@ -125,47 +124,6 @@ def _in_colour(
             path=lens,
         )
     return colour(set_up(find_lens(lens), request), spectrum, picture, output, as_json)
-
-
-def render(setup: Setup, picture: Picture) -> Psf:
-    """Return the PSF by the method asked for, or from the six coefficients when their sampling is.
-
-    Where pixels are wider than λ/(4 NA) it is the light that each receives.
-    """
-    method = picture.method or AUTO
-    if picture.seidel and (picture.sampling == "fft" or not picture.clip):
-        return _from_coefficients(setup, picture)
-    method = "seidel" if picture.seidel else method
-    from p2sf.psf.pixel_integrals import render_integrated
-
-    options = PsfOptions(min_r2=picture.min_r2, clip=picture.clip)
-    made = render_integrated(setup.lens, setup.source, method, picture.side, picture.pixel_um, options)
-    return replace(made, azimuth_deg=setup.source.azimuth_deg) if setup.source.azimuth_deg else made
-
-
-def _from_coefficients(setup: Setup, picture: Picture) -> Psf:
-    from p2sf.figures.pixel_light import critical_pixel_um
-    from p2sf.paraxial.seidel import check_seidel, coefficients
-    from p2sf.psf.pixel_integrals import integrate
-    from p2sf.psf.seidel import seidel_psf, suitable_pixel_um
-    from p2sf.pupil.seen_mask import mask_seen
-
-    source = setup.source
-    check_seidel(setup.lens)
-    if picture.clip:
-        raise SamplingError(
-            "an FFT of square samples shows no edges of rims; use mdft, or leave {parameter} off", parameter="clip"
-        )
-    six = coefficients(setup.lens, source.depth_mm, source.field_slope, source.wavelength_um, setup.stop)
-    pitch = picture.pixel_um or float(suitable_pixel_um(six, picture.side))
-    finest = float(critical_pixel_um(six.wavelength_um, six.na))
-    sampling, mask = picture.sampling or "mdft", mask_seen(setup.lens, source)
-    return integrate(
-        lambda count, pixel_um: seidel_psf(six, count, pixel_um, sampling=sampling, mask=mask),
-        picture.side,
-        pitch,
-        finest,
-    )
 
 
 def energy_of(setup: Setup, method: str, clip: bool = False) -> Energy | None:

@@ -9,7 +9,7 @@ from p2sf.api import Method
 from p2sf.errors import RequestError, SamplingError
 from p2sf.messages import ParameterName
 from p2sf.parameters import check_samples
-from p2sf.psf.methods import AUTO, by_six
+from p2sf.psf.methods import AUTO, SEIDEL, PsfOptions, by_six
 
 
 @dataclass(frozen=True)
@@ -115,6 +115,16 @@ class Picture:
     def seidel(self) -> bool:
         """Return whether the six coefficients are asked for."""
         return by_six(self.method or AUTO) or self.sampling is not None
+
+    @property
+    def described_by(self) -> str:
+        """Return the method that describes the pupil: six coefficients also where a sampling of theirs is asked for."""
+        return SEIDEL.name if self.seidel else self.method or AUTO
+
+    @property
+    def options(self) -> PsfOptions:
+        """Return how its PSF is made."""
+        return PsfOptions(min_r2=self.min_r2, clip=self.clip, sampling=self.sampling or "mdft")
 
 
 USUAL = Picture()

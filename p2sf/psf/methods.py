@@ -15,7 +15,7 @@ from p2sf.choice import first_within
 from p2sf.conventions import UM_PER_MM
 from p2sf.disc.mask import PupilMask
 from p2sf.disc.quadrature import SETTLED_TOLERANCE
-from p2sf.errors import GeometryError, P2SFError, RequestError
+from p2sf.errors import GeometryError, P2SFError, RequestError, SamplingError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message
@@ -141,12 +141,14 @@ class PsfOptions:
     """How a PSF is made whatever it is of: "settled" or a "preview", its least R² by ``auto``, and within rims or not.
 
     A fit takes as many numbers as ``min_r2`` asks for, 26 at least. ``clip`` applies the clear semi-diameters: exact
-    rays tell where rims are, whatever describes the pupil within them.
+    rays tell where rims are, whatever describes the pupil within them. ``sampling``: of six coefficients, as
+    `seidel_psf` has it.
     """
 
     quality: str = "settled"
     min_r2: float = 0.99
     clip: bool = False
+    sampling: str = "mdft"
 
 
 USUAL = PsfOptions()
@@ -488,12 +490,16 @@ def _by_six(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
         check_seidel(lens)
         c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
     mask, nodes_of, started = mask_seen(lens, source), _nodes_within_rims(asked), perf_counter()
+    if nodes_of and asked.options.sampling == "fft":
+        raise SamplingError(
+            "an FFT of square samples shows no edges of rims; use mdft, or leave {parameter} off", parameter="clip"
+        )
     if nodes_of:
         check_image(c)
         psf = psf_of_fit(as_fit(c, mask), source.wavelength_um, asked.window, asked.options.quality, started, nodes_of)
         psf = replace(psf, method="seidel", numbers=6)
     else:
-        psf = seidel_psf(c, *asked.window, asked.options.quality, mask=mask)
+        psf = seidel_psf(c, *asked.window, asked.options.quality, asked.options.sampling, mask=mask)
     if asked.by_hand:
         return psf
     psf = psf.with_figures(predicted_error=partial(_error_of_six, asked, c))

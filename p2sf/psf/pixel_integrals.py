@@ -10,9 +10,10 @@ from math import inf
 
 import numpy as np
 
-from p2sf.errors import SamplingError
+from p2sf.errors import GeometryError, SamplingError
 from p2sf.figures.pixel_light import LARGEST, FineGrid, critical_pixel_um, fine_grid
 from p2sf.figures.psf_data import Figure, Later, PsfFigures
+from p2sf.io.record import describe
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
@@ -25,6 +26,7 @@ from p2sf.pupil.vignetting import pupil_nodes
 from p2sf.raytrace.exit_sphere import exit_sphere
 from p2sf.raytrace.field_geometry import cone
 from p2sf.raytrace.pencil import pencil, rays_through
+from p2sf.setting import Setup
 
 RAYS = 24, 96  # radii × directions for the share of light in a window
 
@@ -129,8 +131,8 @@ def render_integrated(
         if not settled:
             return None
         width = points.values.shape[-1] * points.pixel_um
-        rays = light_of_rays(lens, source, points, options.clip)
-        return min(rays, airy_share(width, own.na, source.wavelength_um))
+        rays = _share_of_rays(lens, source, points, options.clip)
+        return None if rays is None else min(rays, airy_share(width, own.na, source.wavelength_um))
 
     psf = integrate(
         lambda count, pitch: render(lens, source, method, count, pitch, options),
@@ -140,10 +142,23 @@ def render_integrated(
         wanted,
         estimate,
     )
-    known, rays = psf.figures.energy, partial(light_of_rays, lens, source, psf, options.clip)
+    known, rays = psf.figures.energy, partial(_share_of_rays, lens, source, psf, options.clip)
     costly = (isinstance(known, Later) and known.costly) or (known is None and not settled)
     share = Later(lambda: rays() if psf.energy is None else psf.energy, partial(estimate, psf) if costly else None)
     return psf.with_figures(energy=share)
+
+
+def render_setup(
+    setup: Setup,
+    method: str = AUTO,
+    pixels: int = 64,
+    pixel_um: float | None = None,
+    options: PsfOptions = USUAL,
+    wanted: bool | None = None,
+) -> Psf:
+    """Return `render_integrated` of a lens as it is set, with what it is of."""
+    psf = render_integrated(setup.lens, setup.source, method, pixels, pixel_um, options, wanted)
+    return replace(psf.with_figures(provenance=partial(describe, setup)), azimuth_deg=setup.source.azimuth_deg)
 
 
 def airy_share(width_um: float, na: float, wavelength_um: float) -> float:
@@ -154,6 +169,14 @@ def airy_share(width_um: float, na: float, wavelength_um: float) -> float:
     """
     v = 2 * np.pi * na / wavelength_um * width_um / np.sqrt(np.pi)
     return float(max(0.0, 1 - 2 / (np.pi * v)))
+
+
+def _share_of_rays(lens: Lens, source: Source, psf: Psf, clip: bool) -> float | None:
+    """Return `light_of_rays`; None where no ray arrives, though six coefficients show a picture."""
+    try:
+        return light_of_rays(lens, source, psf, clip)
+    except GeometryError:
+        return None
 
 
 def light_of_rays(lens: Lens, source: Source, psf: Psf, clip: bool) -> float:

@@ -14,7 +14,7 @@ from p2sf.psf.result import IN_WINDOW
 from p2sf.setting import Request, set_up
 
 
-@pytest.mark.parametrize("ending", ["npz", "tiff", "csv", "png"])
+@pytest.mark.parametrize("ending", ["npz", "tiff", "csv", "fits", "png"])
 def test_psf_writes_what_it_says(answer, tmp_path, ending):
     path = tmp_path / f"spot.{ending}"
     place = ("--field-deg", 10, "--wavelength-nm", 656.2725, "--pixels", 32, "--pixel-um", 0.69125)
@@ -158,6 +158,10 @@ def test_a_file_holds_what_the_library_returns(answer, tmp_path, method):
     mine = p2sf.render(lens, source, method, f_number=5, pixels=16, pixel_um=4.0)
     assert mine.integrated and found["integrated"]
     np.testing.assert_allclose(read_psf(tmp_path / "psf.npz")[0].values, mine.values, rtol=1e-6)  # float32 in the file
+    for name in ("strehl", "energy", "predicted_error", "plane_wave_error", "fresnel_number"):
+        assert found[name] == (
+            pytest.approx(getattr(mine, name), rel=1e-6) if getattr(mine, name) is not None else None
+        )
 
 
 def test_a_looked_up_file_holds_what_the_library_looks_up(answer, tmp_path):

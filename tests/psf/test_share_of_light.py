@@ -141,3 +141,9 @@ def test_one_pass_of_spherical_waves_states_its_light():
     once = sum_rays(spherical_pupil(lens, source), (256, 0.9765625), None)
     assert once.energy == pytest.approx(light_of_rays(lens, source, once, False), abs=0.01)
     assert 0.5 < once.energy < 0.99
+
+
+def test_no_share_is_told_where_no_ray_arrives_and_samples_are_far_apart():
+    """Six coefficients show a picture even there, of 80 times λ/(4 NA) a sample."""
+    psf = p2sf.render(p2sf.load_lens("double_gauss_28"), Source(field_deg=40), "seidel", pixels=16)
+    assert psf.energy is None and psf.strehl > 0 and psf.predicted_error == np.inf
