@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
 from math import ceil, cos, inf, pi, sin, tan
+from typing import Protocol
 
 import numpy as np
 
@@ -24,8 +25,17 @@ GAUSS_EXCESS = 1.5  # Gauss–Legendre nodes per uniform direction for the same 
 EDGE_NODES = 5  # more in each sector, for an outline that is smooth but not a circle
 FEWEST_ACROSS = 4  # nodes across a vane, or across a part of it between corners
 UPRIGHT = 1e-9  # sine of the angle of a vane along η
-TRIED_ALONG = 24  # points of a vane at which crossings with a hole are sought
 THINNEST = 1e-12  # share of the disc that counts as zero
+
+
+class Curve(Protocol):
+    """A closed curve over the stop."""
+
+    def depth(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
+        """Return what is positive at points inside."""
+
+    def cuts(self, xi: np.ndarray, eta: np.ndarray, sine: float, cosine: float) -> Sequence[np.ndarray]:
+        """Return how far along a direction lines from points cross it."""
 
 
 def mask_nodes(mask: PupilMask, radial: int, angular: int) -> ClearNodes:
@@ -42,7 +52,7 @@ def _kept_nodes(mask: PupilMask, radial: int, angular: int) -> ClearNodes:
     if not mask.disc.centred:
         pieces.append(_dark_disc(mask, radial, angular))
     for angle in mask.vane_angles:
-        pieces += vane_pieces(mask, angle, radial, mask.bounds)
+        pieces += vane_pieces(mask, angle, radial)
     return join_pieces(mask, pieces, mask.domain)
 
 
@@ -116,7 +126,9 @@ def exit_distance(
     bounds: Sequence[Inside], xi: np.ndarray, eta: np.ndarray, sine: np.ndarray, cosine: np.ndarray
 ) -> np.ndarray:
     """Return the distance of inner points from the nearest of several edges along the directions (sine, cosine)."""
-    nearest: np.ndarray = np.min([edge.distance(xi, eta, sine, cosine) for edge in bounds], axis=0)
+    nearest = bounds[0].distance(xi, eta, sine, cosine)
+    for edge in bounds[1:]:
+        nearest = np.minimum(nearest, edge.distance(xi, eta, sine, cosine))
     return nearest
 
 
@@ -130,20 +142,15 @@ def _polar(theta: np.ndarray, step: np.ndarray, inner: np.ndarray, outer: np.nda
 
 
 def vane_pieces(
-    mask: PupilMask,
-    angle: float,
-    radial: int,
-    bounds: Sequence[Inside],
-    shadows: Sequence[Inside] = (),
-    corners: Sequence[float] = (),
+    mask: PupilMask, angle: float, radial: int, curves: Sequence[tuple[Curve, bool]] = (), breaks: Sequence[float] = ()
 ) -> list[Piece]:
     """Return the pieces of one vane, with negative areas, outside the obscuration and the other vanes.
 
-    It ends at the nearest of ``bounds`` and begins where it leaves ``shadows``, which it must not meet farther out.
-    ``corners``: of these, distances from the vane's middle line. Raises GeometryError where that is not so.
+    ``curves``: other edges, and whether their insides are open. ``breaks``: distances from the vane's middle line at
+    which these have corners and extremes.
     """
-    ends = zip(*_across(mask, angle, corners), strict=True)
-    return [piece for pair in ends for piece in _strips(mask, angle, pair, radial, (bounds, shadows))]
+    ends = zip(*_across(mask, angle, breaks), strict=True)
+    return [piece for pair in ends for piece in _strips(mask, angle, pair, radial, curves)]
 
 
 def _across(mask: PupilMask, angle: float, others: Sequence[float]) -> tuple[np.ndarray, np.ndarray]:
@@ -176,46 +183,29 @@ def _corners_of_disc(mask: PupilMask, angle: float) -> list[float]:
 
 
 def _strips(
-    mask: PupilMask,
-    angle: float,
-    interval: tuple[float, float],
-    radial: int,
-    edges: tuple[Sequence[Inside], Sequence[Inside]],
+    mask: PupilMask, angle: float, interval: tuple[float, float], radial: int, curves: Sequence[tuple[Curve, bool]]
 ) -> list[Piece]:
-    """Return the nodes of one interval across a vane: beyond the obscuration, and before a decentred one."""
-    sine, cosine, (low, high), (bounds, shadows) = sin(angle), cos(angle), interval, edges
+    """Return the nodes of one interval across a vane: what of its lines is open, between all edges that cut them."""
+    sine, cosine, (low, high) = sin(angle), cos(angle), interval
     node, weight = gauss_legendre(FEWEST_ACROSS + ceil(radial * (high - low) / 2))
     aside = (low + high + (high - low) * node) / 2
-    foot = aside * cosine, -aside * sine
+    foot_xi, foot_eta = foot = aside * cosine, -aside * sine
     start = np.abs(aside) / tan(pi / mask.vanes) if mask.vanes > 2 else np.zeros_like(aside)
-    directions = np.full_like(aside, sine), np.full_like(aside, cosine)
-    for shadow in shadows:
-        inside = shadow.depth(*foot) > 0
-        if inside.any():
-            start = np.maximum(start, np.where(inside, shadow.distance(*foot, *directions), 0.0))
-    end = np.maximum(exit_distance(bounds, *foot, *directions), start)
-    _check_open(shadows, foot, (sine, cosine), (start, end))
+    directions = (np.full(aside.size, part) for part in (sine, cosine))
+    end = np.maximum(exit_distance(mask.bounds, *foot, *directions), start)
     near, far = (np.clip(part, start, end) for part in mask.disc.chord(*foot, sine, cosine))
+    cuts = [np.clip(cut, start, end) for curve, _ in curves for cut in curve.cuts(*foot, sine, cosine)]
+    places = np.array([start, near, far, end, *cuts])
+    if cuts:
+        places.sort(axis=0)
+    middle = (places[:-1] + places[1:]) / 2
+    open_ = (middle <= near) | (middle >= far)
+    for curve, inside in curves:
+        open_ &= (curve.depth(foot_xi + middle * sine, foot_eta + middle * cosine) > 0) == inside
+    last = np.where(open_, places[1:], places[:-1])
     count, across = ring_count(radial, 1 - _inner_radius(mask)), weight * (high - low) / 2
-    ends = ((start, near), (far, end))
-    return [_strip(foot, (sine, cosine), two, across, count) for two in ends if (two[1] > two[0]).any()]
-
-
-def _check_open(
-    shadows: Sequence[Inside],
-    foot: tuple[np.ndarray, np.ndarray],
-    direction: tuple[float, float],
-    ends: tuple[np.ndarray, np.ndarray],
-) -> None:
-    """Raise GeometryError if a vane enters a shadow farther out and so is not a single strip."""
-    part = (np.arange(TRIED_ALONG) + 0.5)[:, None] / TRIED_ALONG
-    along = ends[0] + (ends[1] - ends[0]) * part
-    at = foot[0] + along * direction[0], foot[1] + along * direction[1]
-    if any((shadow.depth(*at) > 0).any() for shadow in shadows):
-        raise GeometryError(
-            "a vane crosses the shadow of a surface away from the centre; leave {parameter} off or remove the vanes",
-            parameter="clip",
-        )
+    ends = (pair for pair in zip(places[:-1], last, strict=True) if (pair[1] > pair[0]).any())
+    return [_strip(foot, (sine, cosine), pair, across, count) for pair in ends]
 
 
 def _strip(

@@ -33,7 +33,6 @@ CLOSE = 1e-8  # of the box: ends of edges no farther apart are one
 SEARCHED = 24, 144  # radii and directions of points among which the middle of a piece is sought
 SCAN = 192  # directions to half a turn between which corners are sought: a shorter arc may be missed
 ON_EDGE = 1e-9  # in radii of the rim
-FOOT_POINTS = 9  # across a vane
 CORNER_STEPS = 7  # a corner's direction to 6e-11
 
 TURN = np.arange(2 * CURVE) * (pi / CURVE)
@@ -94,30 +93,20 @@ class OpenPart:
         for sign, curve in self._regions:
             xi, eta, area = curve.piece(counts)
             pieces.append((xi, eta, sign * area))
+        edges = [(self.rim, True)] if self.rim else []
+        edges += [(shadow, False) for shadow in self.shadows]
         for angle in self.mask.vane_angles:
-            self._check_foot(angle)
-            edges = self._bounds, self.shadows
-            pieces += vane_pieces(self.mask, angle, counts[0], *edges, self._corners_beside(angle))
+            pieces += vane_pieces(self.mask, angle, counts[0], edges, self._breaks_across(angle))
         return join_pieces(self.mask, pieces, self.domain)
 
     @property
     def _bounds(self) -> tuple[Inside, ...]:
         return self.mask.bounds if self.rim is None else (*self.mask.edges, self.rim)
 
-    def _check_foot(self, angle: float) -> None:
-        """Raise GeometryError unless a vane begins within the rim."""
-        aside = np.linspace(-self.mask.vane_width, self.mask.vane_width, FOOT_POINTS)
-        if self.rim is not None and not (self.rim.depth(aside * np.cos(angle), -aside * np.sin(angle)) >= 0).all():
-            raise GeometryError(
-                "vanes meet outside the clear part of the pupil; leave {parameter} off or reduce the field",
-                parameter="clip",
-            )
-
-    def _corners_beside(self, angle: float) -> list[float]:
-        """Return how far the corners of rim and shadows lie beside the middle line of a vane."""
-        curves = [curve for curve in (self.rim, *self.shadows) if curve is not None]
-        corners = [curve.corner_points(WHOLE) for curve in curves]
-        return [float(x) for xi, eta in corners for x in xi * np.cos(angle) - eta * np.sin(angle)]
+    def _breaks_across(self, angle: float) -> list[float]:
+        """Return where corners and extremes of edges lie beside the middle line of a vane."""
+        curves = [*[curve for _, curve in self._regions], *self.shadows]
+        return [x for curve in curves for x in curve.breaks_across(float(np.sin(angle)), float(np.cos(angle)))]
 
     @cached_property
     def _regions(self) -> list[tuple[int, StarCurve]]:

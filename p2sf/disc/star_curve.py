@@ -1,8 +1,9 @@
 """Closed curves over the stop, all of which is seen from a point inside: rims and shadows as a source sees them.
 
 Between corners the distance from that point is a smooth function of the direction, here a Chebyshev series, which
-converges geometrically (Boyd 2001, §2.13). Gauss–Legendre nodes in ρ² up to the curve, in directions between corners,
-then integrate over its inside as fast as over the disc.
+converges geometrically (Boyd 2001, §2.13). Gauss–Legendre nodes up to the curve, in directions between corners, then
+integrate over its inside as fast as over the disc: in ρ, since about a point that is not the middle odd powers of it do
+not cancel, of which nodes in ρ² miss 1e-5 where these miss 1e-11.
 """
 
 from collections.abc import Callable
@@ -14,13 +15,15 @@ import numpy as np
 from numpy.polynomial.chebyshev import chebval
 
 from p2sf.disc.clear_radius import Clearance, clear_radius
-from p2sf.disc.domain import ClearNodes, Piece, PupilDomain
+from p2sf.disc.domain import WHOLE, ClearNodes, Piece, PupilDomain
 from p2sf.disc.mask import WHOLE_STOP
 from p2sf.disc.quadrature import gauss_legendre, ring_count
 
 BEYOND = 1e-3  # of the way to a curve: what is held inside ends no farther out, where nothing is known of the pupil
 FEWEST_TERMS, MOST_TERMS, LAST_TERMS = 24, 192, 1e-10  # of an arc's series, the last in radii of the rim
 FEWEST_PER_ARC = 6
+ALONG = 193  # points of a line of two radii at which crossings are sought
+DRAWN = 512  # of half a curve
 SECTIONS = 16  # of the interval of a corner in one step: so few rays cost no more than one
 GAUSS_EXCESS = 1.5  # Gauss–Legendre nodes per uniform direction for the same harmonics: some π/2
 
@@ -69,6 +72,38 @@ class StarCurve:
 
         return clear_radius(clearance, outer)[0]
 
+    def cuts(self, xi: np.ndarray, eta: np.ndarray, sine: float, cosine: float) -> list[np.ndarray]:
+        """Return how far along a direction lines from points cross the curve, up to beyond the disc; inf for none."""
+        place = np.linspace(0, 2, ALONG)
+        inside = self.depth(xi + place[:, None] * sine, eta + place[:, None] * cosine) > 0
+        step, line = np.nonzero(inside[1:] != inside[:-1])
+        first = inside[step, line]
+
+        def clearance(further: np.ndarray, some: np.ndarray) -> Clearance:
+            at = place[step[some]] + further
+            depth = self.depth(xi[line[some]] + at * sine, eta[line[some]] + at * cosine)
+            return (depth > 0) == first[some], np.where(first[some], depth, -depth), np.ones(some.size, int)
+
+        found = place[step] + clear_radius(clearance, np.full(step.size, place[1]))[0]
+        order, counts = np.argsort(line, kind="stable"), np.bincount(line, minlength=xi.size)
+        number = np.arange(step.size) - np.repeat(np.cumsum(counts) - counts, counts)
+        cuts = np.full((int(counts.max(initial=0)), xi.size), np.inf)
+        cuts[number, line[order]] = found[order]
+        return list(cuts)
+
+    def breaks_across(self, sine: float, cosine: float) -> list[float]:
+        """Return how far corners and extremes lie beside the line through the stop's middle along a direction."""
+        xi, eta = self.corner_points(WHOLE)
+        beside = map(float, xi * cosine - eta * sine)
+        xi, eta = self.points(DRAWN, WHOLE)
+        across = xi * cosine - eta * sine
+        before, after = np.roll(across, 1), np.roll(across, -1)
+        some = (across >= before) != (after >= across)
+        bend = np.where(some, before - 2 * across + after, 1.0)
+        # Those of the parabolas through three points.
+        extremes = (across - np.where(bend == 0, 0.0, (after - before) ** 2 / (8 * bend)))[some]
+        return [*beside, *map(float, extremes)]
+
     def _seen(self, xi: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return how far points are from the middle, and how far the curve is in that direction."""
         across, up = xi - self.middle[0], eta - self.middle[1]
@@ -113,9 +148,10 @@ class StarCurve:
         """Return nodes over the inside, in its own part of the disc, as dense as ``counts`` are over the whole disc."""
         theta, step = self._directions(counts[1])
         radius = self.radius(theta)
-        square, weight = gauss_legendre(ring_count(counts[0], min(1.0, float(radius.max()))))
-        rho = np.sqrt((1 + square) / 2)[:, None] * radius
-        area = weight[:, None] / 4 * radius**2 * step / pi  # ∫ρ dρ dθ = ½∫d(ρ²) dθ over the disc's area π
+        place, weight = gauss_legendre(ring_count(counts[0], min(1.0, float(radius.max()))))
+        part = (1 + place[:, None]) / 2
+        rho = part * radius
+        area = weight[:, None] / 2 * part * radius**2 * step / pi  # ρ dρ dθ over the disc's area π
         xi, eta = self.middle[0] + rho * np.sin(theta), self.middle[1] + rho * np.cos(theta)
         return xi.ravel(), eta.ravel(), area.ravel()
 

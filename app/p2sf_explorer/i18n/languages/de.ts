@@ -1293,7 +1293,6 @@
 <message><source>a sharp core in a wide halo</source><translation>ein scharfer Kern in weitem Hof</translation></message>
 <message><source>a surface that is not round</source><translation>eine Fläche, die nicht rund ist</translation></message>
 <message><source>a text</source><translation>einen Text</translation></message>
-<message><source>a vane crosses the shadow of a surface away from the centre; leave {parameter} off or remove the vanes</source><translation>eine Strebe quert abseits der Mitte den Schatten einer Fläche; {parameter} ausschalten oder die Streben wegnehmen</translation></message>
 <message><source>a wavefront of {shape} with areas of {areas}; give two equal even squares</source><translation>eine Wellenfront {shape} mit Flächen {areas}; zwei gleiche Quadrate gerader Seitenzahl angeben</translation></message>
 <message><source>a wavefront on {size} cells repeats its PSF every {period:.4g} µm, and the window is {window:.4g} µm wide; give a finer grid or a smaller window</source><translation>eine Wellenfront auf {size} Zellen wiederholt ihre PSF alle {period:.4g} µm, und das Fenster ist {window:.4g} µm breit; ein feineres Gitter oder ein kleineres Fenster angeben</translation></message>
 <message><source>a wavelength is not that of light; give micrometres</source><translation>eine Wellenlänge ist nicht die von Licht; Mikrometer angeben</translation></message>
@@ -2345,7 +2344,6 @@
 <message><source>value</source><translation>Wert</translation></message>
 <message><source>vane angle</source><translation>Strebenwinkel</translation></message>
 <message><source>vane width</source><translation>Strebenbreite</translation></message>
-<message><source>vanes meet outside the clear part of the pupil; leave {parameter} off or reduce the field</source><translation>die Streben treffen sich außerhalb des freien Teils der Pupille; {parameter} ausschalten oder das Feld verkleinern</translation></message>
 <message><source>vd is {value}; give an Abbe number between 10 and 120</source><translation>vd ist {value}; eine Abbe-Zahl zwischen 10 und 120 angeben</translation></message>
 <message><source>vignetting factors (up to {value:g}) are not applied, since {reason}; only rims clip</source><translation>Vignettierungsfaktoren (bis {value:g}) sind nicht angewandt, da {reason}; nur Ränder beschneiden</translation></message>
 <message><source>where rims clip, those of the file end the pupil within {missed:.2g} of its radius of where its vignetting factors (up to {value:g}) end it</source><translation>wo Ränder beschneiden, endet die Pupille durch die der Datei auf {missed:.2g} ihres Radius dort, wo ihre Vignettierungsfaktoren (bis {value:g}) sie enden lassen</translation></message>
