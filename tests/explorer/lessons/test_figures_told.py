@@ -577,3 +577,26 @@ def test_answers_and_foreseen_slips_are_what_they_are_said_to_be(name, answer):
     assert RIGHT[name]() == pytest.approx(right.number, abs=right.tolerance)
     for (slip, hint), value in zip(answer.wrong, SLIPS[name](), strict=True):
         assert value == pytest.approx(slip.number, abs=slip.tolerance), hint
+
+
+def spike(blades: int, least: float, most: float) -> float:
+    """Return the mean light of a spike between radii in λN over that in the middle, by the width of the iris there."""
+    x = np.linspace(-1, 1, 8001)
+    low, high = -np.sqrt(1 - x**2), np.sqrt(1 - x**2)
+    for angle in 2 * np.pi * np.arange(blades) / blades:  # the first edge stands across the spike
+        room = np.cos(np.pi / blades) - x * np.cos(angle)
+        if abs(np.sin(angle)) < 1e-9:
+            low, high = (np.where(room < 0, 0.0, edge) for edge in (low, high))
+        elif np.sin(angle) > 0:
+            high = np.minimum(high, room / np.sin(angle))
+        else:
+            low = np.maximum(low, room / np.sin(angle))
+    width = np.maximum(high - low, 0)
+    radius = np.linspace(least, most, 400)
+    return float((np.abs(np.exp(1j * np.pi * np.outer(radius, x)) @ width) ** 2).mean() / width.sum() ** 2)
+
+
+def test_spikes_of_five_blades_are_fainter_than_those_of_six_far_out_alone():
+    assert "Far from the middle each of these is fainter" in told("18_an_irises_blades")
+    assert spike(5, 12, 40) < 0.9 * spike(6, 12, 40)
+    assert spike(5, 3.66, 6.1) > spike(6, 3.66, 6.1)  # 3 to 5 Airy radii, where the lesson measures spikes
