@@ -6,6 +6,7 @@ that the database lacks, from catalogues of their makers. `tests.long.collect_pa
 """
 
 import gzip
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
@@ -53,21 +54,27 @@ def _heads_and_text() -> tuple[str, bytes]:
 
 
 @cache
+def _names() -> bytes:
+    """Return "shelf/book/page" of every page in their order, each between line feeds."""
+    return b"\n".join([b"", *re.findall(rb"\n([^\t]+)\t", _heads_and_text()[1]), b""])
+
+
+@cache
 def _in_capitals() -> bytes:
-    """Return the same text in capitals; names are in ASCII, so that every letter keeps its place."""
-    return _heads_and_text()[1].upper()
+    """Return the names in capitals; they are in ASCII, so that every letter keeps its place."""
+    return _names().upper()
 
 
 def pages_named(name: str) -> Iterator[str]:
     """Yield every "shelf/book/page" with this page, in capitals, without a list of all 4000."""
-    text, mark, at = _in_capitals(), f"/{name}\t".encode(), -1
-    while (at := text.find(mark, at + 1)) >= 0:
-        yield _heads_and_text()[1][text.rfind(b"\n", 0, at) + 1 : at + len(mark) - 1].decode()
+    mark, at = f"/{name}\n".encode(), -1
+    while (at := _in_capitals().find(mark, at + 1)) >= 0:
+        yield _names()[_names().rfind(b"\n", 0, at) + 1 : at + len(mark) - 1].decode()
 
 
 def page_names() -> tuple[str, ...]:
     """Return "shelf/book/page" of every page, those of the database first, each sorted."""
-    return tuple(dict.fromkeys(line.partition(b"\t")[0].decode() for line in _heads_and_text()[1].splitlines()[1:]))
+    return tuple(dict.fromkeys(_names().decode().split("\n")[1:-1]))
 
 
 def page(name: str) -> GlassPage:
