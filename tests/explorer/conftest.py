@@ -74,7 +74,9 @@ def known_answers():
 
 
 # The stage is so small that the PSF on it has no more samples than the answer.
-FIRST = new_state(method="seidel", theme="light", rail=("layout", "pupil", "coefficients"), stage_share=0.3)
+FIRST = new_state(
+    method="seidel", theme="light", show_more=True, rail=("layout", "pupil", "coefficients"), stage_share=0.3
+)
 
 
 @pytest.fixture(scope="session")

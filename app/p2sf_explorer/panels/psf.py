@@ -16,7 +16,7 @@ from p2sf_explorer.compute.finer import SettledSum, ShownArea, answer, covers, f
 from p2sf_explorer.compute.framing import ShownSquare, frame_of, light_circle
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.method import at_least
-from p2sf_explorer.i18n.messages import said
+from p2sf_explorer.i18n.messages import WINDOW, said
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.scales import significant, written_r_squared
 from p2sf_explorer.state.state import State
@@ -169,7 +169,7 @@ class PsfPanel:
         allowed = 1 - live.state.optics.tolerance
         unsure = (measured is None and (psf.predicted_error or 0.0) > allowed) or vectors_count(live)
         self.badge.set_text(whole, "warning" if unsure else "text", short)
-        self.badge.setToolTip("\n".join((whole, *tip_words(live))))
+        self.badge.setToolTip("\n".join((whole, live.why.text(WINDOW), *tip_words(live))))
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""

@@ -127,6 +127,7 @@ PLAIN: dict[str, type] = {
     "clip": bool,
     **dict.fromkeys(COUNTS, int),
     "show_pupil_shape": bool,
+    "show_more": bool,
     "full_bleed": bool,
     "tab": str,
     "stage": str,

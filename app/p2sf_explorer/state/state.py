@@ -235,7 +235,8 @@ class Display:
     ``pixel_um`` is the pixel of a sensor, ``blur_um`` the diameter of blur that still counts as sharp, ``spectrum`` the
     light of the colour PSF (`p2sf.colour.spectrum`). ``language`` is a file of ``i18n/languages``, "en", or "system";
     ``colours`` are those of the heat maps.
-    ``show_pupil_shape``: whether the controls of the pupil mask are unfolded; ``full_bleed``: whether the PSF runs
+    ``show_more``: whether the controls are unfolded that a first look does not need, ``show_pupil_shape``: those of the
+    pupil mask; ``full_bleed``: whether the PSF runs
     under its own axes, to the edges of its panel.
     ``rays_coloured`` and ``rays_count`` are of the layout (`p2sf_explorer.compute.layout.layout`); ``keep_focus`` says
     what the sensor follows while the lens is edited: "paraxial" or "rms" focus, or "off". ``exaggerated``: the factor
@@ -259,6 +260,7 @@ class Display:
     show_rail: bool = True
     show_controls: bool = True
     show_pupil_shape: bool = False
+    show_more: bool = False
     full_bleed: bool = False
     tab: str = "profiles"
     windows: tuple[str, ...] = ()

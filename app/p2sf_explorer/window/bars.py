@@ -18,7 +18,7 @@ from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr, unbroken
 from p2sf_explorer.state.limits import CHOICES
 from p2sf_explorer.state.scales import with_sign
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import Optics, State
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import combo_of, select
 from p2sf_explorer.widgets.exactness_slider import ExactnessButton
@@ -28,6 +28,7 @@ from p2sf_explorer.window.lens_chooser import LensChooser
 from p2sf_explorer.window.no_answer import UNKNOWN
 from p2sf_explorer.window.workspace_bar import WorkspaceBar
 
+USUAL = Optics()
 GAP = 6  # pixels at scale 1 between two parts of the bar
 FACTS_PX, SHORT_FACTS_PX = 490, 230  # widths of the figures at the right of the status line, at scale 1
 MARGINS_PX = 16  # about both parts of the status line and between them
@@ -51,6 +52,7 @@ class TopBar(QFrame):
         self._store = store
         self.workspaces: WorkspaceBar | None = None
         self._shown: tuple[object, ...] = ()
+        self._trade = False  # whether the choice between speed and accuracy is unfolded
         self._gap = GAP
         self.lens = LensChooser(self)
         self.lens.chosen.connect(self.lens_chosen)
@@ -103,7 +105,7 @@ class TopBar(QFrame):
         room = self.width() - margins.left() - margins.right()
         for less in range(5):
             self._row.setSpacing(self._gap if less < 1 else self._gap // 2)
-            self.named.setVisible(less < 2)
+            self.named.setVisible(less < 2 and self._trade)
             if self.workspaces:
                 self.workspaces.make_narrow(less > 2)
             for tool in (self.undo, self.redo, self.pin, self.snapshot, self.help):
@@ -173,13 +175,16 @@ class TopBar(QFrame):
         self.lens.show_lens(state.optics.lens, shown_title(state), theme)
         self.edited.setVisible(state.optics.lens_text is not None)
         select(self.method, state.optics.method)
+        self._trade = state.display.show_more or not state.optics.automatic or state.optics.tolerance != USUAL.tolerance
+        self.method.setVisible(self._trade)
+        self.tolerance.setVisible(self._trade)
         self.tolerance.show_state(state)
         if self.workspaces:
             self.workspaces.mark(state.display.workspace)
         self.undo.setEnabled(self._store.can_undo)
         self.redo.setEnabled(self._store.can_redo)
         self.pin.setChecked(state.compare.pinned is not None)
-        shown = state.optics.lens_text is None, state.optics.method
+        shown = state.optics.lens_text is None, state.optics.method, self._trade
         if shown != self._shown:  # a slider moves none of these
             self._shown = shown
             self.fit()

@@ -7,6 +7,7 @@ from PySide6.QtWidgets import (
     QLabel,
     QPushButton,
     QScrollArea,
+    QToolButton,
     QVBoxLayout,
     QWidget,
 )
@@ -15,14 +16,14 @@ from p2sf.messages import Message
 from p2sf_explorer.charts.theme import SPACE, Tokens
 from p2sf_explorer.compare.contrasts import AIM_WORDS
 from p2sf_explorer.compute.live import Live
-from p2sf_explorer.compute.quantities import FIELD_X, RING_QUANTITIES, SOURCE_QUANTITIES
+from p2sf_explorer.compute.quantities import FIELD_X, RING_QUANTITIES, SHIFT, SOURCE_QUANTITIES
 from p2sf_explorer.compute.setup import Ranges, state_ranges
 from p2sf_explorer.compute.views.first_order import OF_A, ring_note, rows
 from p2sf_explorer.i18n.messages import WINDOW, said
 from p2sf_explorer.i18n.tr import tr, unbroken
 from p2sf_explorer.state.limits import RINGS
 from p2sf_explorer.state.scales import with_sign
-from p2sf_explorer.state.state import State
+from p2sf_explorer.state.state import Optics, State
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import chooser, select
 from p2sf_explorer.widgets.readout import FactTable, Sentence, in_scroll_area
@@ -91,7 +92,12 @@ def asked(state: State, limits: Ranges) -> bool:
     return limits.both_sides or state.display.show_field_x or bool(state.optics.field_x_deg)
 
 
-ABOVE = (*RING_QUANTITIES, *SOURCE_QUANTITIES)  # the pupil's shape
+ABOVE = {each.key: each for each in (*RING_QUANTITIES, *SOURCE_QUANTITIES) if each is not SHIFT}  # the fold
+FIRST = Optics()
+MORE_TIP = (
+    "Sensor shift, pupil shape, stop, rims, how rays fill the pupil, method and accuracy. What differs from the lens "
+    "file is always shown."
+)
 WIDTH = 292  # pixels of the column at scale 1
 
 
@@ -105,8 +111,11 @@ class Controls(QWidget):
         super().__init__(parent)
         self.setObjectName("controls")
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        self.rows = {key: QuantityRow(quantity, store, self) for key, quantity in ABOVE.items()}
+        self.more = self._fold(store)
+        self.rows[SHIFT.key] = QuantityRow(SHIFT, store, self)
         self.shape = PupilShape(store, self)
-        self.rows = {quantity.key: QuantityRow(quantity, store, self) for quantity in ABOVE} | self.shape.rows
+        self.rows |= self.shape.rows
         for row in self.rows.values():
             row.swept.connect(self.swept)
             row.grasped.connect(self.grasped)
@@ -114,15 +123,27 @@ class Controls(QWidget):
         self.focus_button.setToolTip(tr("Move the sensor to where the RMS of W over the pupil is smallest (Ctrl+F)."))
         self.focus_button.clicked.connect(self.autofocus)
         self.stopping, self.aiming = StopRow(store, self), AimRow(store, self)
+        self._slim, self._state = False, store.state
         self.sentence, self.detail, self.facts = Sentence(self), Sentence(self), FactTable(self)
         self._lay_out()
+
+    def _fold(self, store: Store) -> QToolButton:
+        """Return the heading that unfolds what a first look does not need."""
+        made = QToolButton(self)
+        made.setObjectName("heading")
+        made.setAccessibleName(tr("More controls"))
+        made.setToolTip(tr(MORE_TIP))
+        made.clicked.connect(lambda: store.update(show_more=not store.state.display.show_more))
+        return made
 
     def _lay_out(self) -> None:
         self.sentence.setObjectName("sentence")
         self.detail.setObjectName("muted")
         column = self._column()
-        for quantity in ABOVE:
-            column.addWidget(self.rows[quantity.key])
+        for key in ABOVE:
+            column.addWidget(self.rows[key])
+        column.addWidget(self.more)
+        column.addWidget(self.rows[SHIFT.key])
         column.addWidget(self.shape)
         column.addWidget(self.stopping)
         column.addWidget(self.aiming)
@@ -155,25 +176,42 @@ class Controls(QWidget):
 
     def make_slim(self, slim: bool) -> None:
         """Show the sliders alone, or everything."""
-        for part in (self.stopping, self.aiming, self.focus_button, self.sentence, self.detail, self.figures):
+        self._slim = slim
+        for part in (self.more, self.sentence, self.figures):
             part.setVisible(not slim)
         self._below.setVisible(slim)
+        self._unfold(self._state)
+
+    def _unfold(self, state: State) -> None:
+        """Show what a first look does not need where a person asks for it, a lesson points there, or it is set."""
+        self._state = state
+        optics, more, full = state.optics, state.display.show_more, not self._slim
+        self.more.setText(tr("▾ More controls") if more else tr("▸ More controls"))
+        shift = self.rows[SHIFT.key]
+        shift.setVisible(more or bool(optics.sensor_shift_um) or bool(shift.property("pointed")))
+        pointed = any(row.property("pointed") for row in self.shape.rows.values())
+        self.shape.setVisible(more or bool(optics.mask) or state.display.show_pupil_shape or pointed)
+        self.stopping.setVisible(full and (more or optics.stop != FIRST.stop or optics.clip))
+        self.aiming.setVisible(full and (more or optics.aim != FIRST.aim))
+        self.focus_button.setVisible(full and more)
+        self.detail.setVisible(full and more)
 
     def reveal(self, key: str) -> None:
-        """Scroll to the row of a quantity where the column is too low for all."""
+        """Show the row of a quantity, and scroll to it where the column is too low for all."""
+        self._unfold(self._state)
         self.area.ensureWidgetVisible(self.rows[key], 0, self.rows[key].height())
 
     def show_state(self, state: State) -> None:
         """Follow a state."""
         limits = state_ranges(state)
-        for quantity in ABOVE:
-            self.rows[quantity.key].setVisible(
-                quantity.there(limits) and (quantity is not FIELD_X or asked(state, limits))
-            )
-            self.rows[quantity.key].show_state(state, limits)
+        for key, quantity in ABOVE.items():
+            self.rows[key].setVisible(quantity.there(limits) and (quantity is not FIELD_X or asked(state, limits)))
+        for key in (*ABOVE, SHIFT.key):
+            self.rows[key].show_state(state, limits)
         self.shape.show_state(state, limits)
         self.stopping.show_state(state)
         self.aiming.show_state(state)
+        self._unfold(state)
 
     def show_live(self, live: Live) -> None:
         """Show what follows from the state: heights, sensor position, the dominant term."""
@@ -202,6 +240,6 @@ class Controls(QWidget):
         self._rows.setContentsMargins(*(theme.px(margin) for margin in (12, 10, 12, 12)))
         self._rows.setSpacing(theme.px(SPACE - 1))
         self.facts.restyle(theme)
-        for quantity in ABOVE:
-            self.rows[quantity.key].restyle(theme)
+        for key in (*ABOVE, SHIFT.key):
+            self.rows[key].restyle(theme)
         self.shape.restyle(theme)

@@ -33,6 +33,7 @@ class View(QObject):
             Command("Smaller type", lambda: self.step(-1), ("Ctrl+-",), "View"),
             Command("Type that suits the screen", self.reset, ("Ctrl+0",), "View"),
             Command("Show or hide the controls", lambda: self._turn("show_controls"), ("F8",), "View"),
+            Command("More or fewer controls", lambda: self._turn("show_more"), ("Ctrl+F8",), "View"),
             Command("Fold or unfold the pupil shape", lambda: self._turn("show_pupil_shape"), ("Shift+F8",), "View"),
             Command(
                 "Picture to the edges, or within its axes", lambda: self._turn("full_bleed"), ("Shift+F10",), "View"

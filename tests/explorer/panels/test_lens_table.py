@@ -74,6 +74,11 @@ def test_the_headings_carry_units_and_the_rows_the_prescription(table):
     assert table.model.data(table.model.index(5, 5)) == "●"
 
 
+def wait_for_pictures(window, qtbot) -> None:
+    """Wait for every picture, the PSF also that for the panel's size, which is asked for a while after a change."""
+    qtbot.waitUntil(lambda: not (window.is_busy() or window.panels["psf"]._settled.isActive()))
+
+
 @pytest.mark.parametrize(
     ("key", "text", "value"),
     [
@@ -85,7 +90,7 @@ def test_the_headings_carry_units_and_the_rows_the_prescription(table):
     ],
 )
 def test_a_typed_value_is_one_undo_and_moves_every_panel(window, typed, qtbot, key, text, value):
-    qtbot.waitUntil(lambda: not window.is_busy())  # a finer PSF may follow the first
+    wait_for_pictures(window, qtbot)
     first, before = window.store.state, pictures(window)
     typed(0, key, text)
     assert getattr(prescription(window.store.state).surfaces[0], key) == value
@@ -95,7 +100,7 @@ def test_a_typed_value_is_one_undo_and_moves_every_panel(window, typed, qtbot, k
     window.store.undo()
     assert window.store.state == first
     assert not window.top.edited.isVisible()
-    qtbot.waitUntil(lambda: not window.is_busy())
+    wait_for_pictures(window, qtbot)
     assert not changed(before, pictures(window))
 
 

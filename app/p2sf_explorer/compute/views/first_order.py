@@ -40,7 +40,7 @@ EXIT_TIP = "The stop seen from the sensor: its diameter, and its place from the 
 
 
 def rows(live: Live) -> tuple[Row, ...]:
-    """Return what a person asks first, the picture's own figures before the lens's: short screens cut the end."""
+    """Return what a person asks first, the picture's own figures before the lens's; *First order* has the others."""
     s = live.setup
     na = s.cone.na
     return (
@@ -63,13 +63,6 @@ def rows(live: Live) -> tuple[Row, ...]:
             aperture(0.5 / na if na else inf),
             "Working f-number 1/(2 NA) at this depth.",
         ),
-        ("Numerical aperture", Message("{value:.4f}", value=na), "NA = n′|u′|, image-space slope of the marginal ray."),
-        ("Airy radius", airy_radius(live), "First dark ring of a perfect lens, 0.61 λ/NA."),
-        ("Paraxial image", paraxial_image(s), IMAGE_TIP),
-        ("Sensor", length(s.lens.sensor_mm), SENSOR_TIP),
-        ("Entrance pupil", entrance_pupil(s), ENTRANCE_TIP),
-        ("Exit pupil", exit_pupil(s), EXIT_TIP),
-        ("Stop", stop(s.stop), STOP_TIP),
     )
 
 
@@ -285,8 +278,8 @@ def source_rows(live: Live) -> tuple[Row, ...]:
         ),
         ("Object height", NONE if height is None else length(height), OBJECT_TIP),
         ("Magnification", in_each_meridian(s, ratio), "Image over object height; 0 from infinity."),
-        ("Paraxial image", paraxial_image(s), "From the last vertex."),
-        ("Sensor", length(s.lens.sensor_mm), "From the last vertex."),
+        ("Paraxial image", paraxial_image(s), IMAGE_TIP),
+        ("Sensor", length(s.lens.sensor_mm), SENSOR_TIP),
         (
             "Sensor − image",
             in_each_meridian(s, gap),

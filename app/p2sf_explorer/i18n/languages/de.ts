@@ -686,7 +686,6 @@
 <message><source>Mostly {term}: {percent:.0f} % of the wavefront variance</source><translation>Meist {term}: {percent:.0f} % der Varianz der Wellenfront</translation></message>
 <message><source>Move the sensor to where the RMS of W over the pupil is smallest (Ctrl+F).</source><translation>Den Sensor dorthin setzen, wo der RMS von W über die Pupille am kleinsten ist (Strg+F).</translation></message>
 <message><source>Mute: this term counts as zero (M)</source><translation>Stumm: dieser Term zählt als null (M)</translation></message>
-<message><source>NA = n′|u′|, image-space slope of the marginal ray.</source><translation>NA = n′|u′|, bildseitige Steigung des Randstrahls.</translation></message>
 <message><source>Name of the workspace:</source><translation>Name des Arbeitsbereichs:</translation></message>
 <message><source>Navarro wide-angle schematic eye, 543 nm</source><translation>Schematisches Weitwinkelauge nach Navarro, 543 nm</translation></message>
 <message><source>Next</source><translation>Weiter</translation></message>
@@ -2832,6 +2831,11 @@
 <message><source>∞</source><translation>∞</translation></message>
 <message><source>⌀ {diameter} at {place:z.2f} mm</source><translation>⌀ {diameter} bei {place:z.2f} mm</translation></message>
 <message><source>▶</source><translation>▶</translation></message>
+<message><source>More controls</source><translation>Weitere Regler</translation></message>
+<message><source>More or fewer controls</source><translation>Mehr oder weniger Regler</translation></message>
+<message><source>▸ More controls</source><translation>▸ Weitere Regler</translation></message>
+<message><source>▾ More controls</source><translation>▾ Weitere Regler</translation></message>
+<message><source>Sensor shift, pupil shape, stop, rims, how rays fill the pupil, method and accuracy. What differs from the lens file is always shown.</source><translation>Sensorverschiebung, Pupillenform, Blende, Ränder, wie Strahlen die Pupille füllen, Verfahren und Genauigkeit. Was von der Objektivdatei abweicht, ist immer zu sehen.</translation></message>
 <message><source>▸ Pupil shape</source><translation>▸ Pupillenform</translation></message>
 <message><source>▾ Pupil shape</source><translation>▾ Pupillenform</translation></message>
 <message><source>Copy as CSV</source><translation>Als CSV kopieren</translation></message>

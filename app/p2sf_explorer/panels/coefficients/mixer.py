@@ -35,7 +35,7 @@ SHORT = {
     "wd": "defocus",
     "w11": "distortion",
 }
-LEFT, NUMBER, BUTTON, GAP = 84.0, 60.0, 19.0, 4.0
+LEFT, SYMBOL, NUMBER, BUTTON, GAP = 116.0, 34.0, 60.0, 19.0, 4.0
 SCALE_HEIGHT, SMALLEST_PX = 18.0, 120
 HANDLE = 5.0
 LETTERS = (("muted", "M", "warning"), ("solo", "S", "accent"))
@@ -122,14 +122,14 @@ def paint_scale(painter: QPainter, places: MixerPlaces, theme: Tokens, limit: fl
 def paint_names(painter: QPainter, places: MixerPlaces, theme: Tokens, number: int) -> None:
     """Paint a row's symbol and its name."""
     row, name = places.row(number), TERMS[number]
-    two = row.height() >= theme.px(25)
+    two, symbol = row.height() >= theme.px(25), theme.px(SYMBOL)
     painter.setPen(QColor(theme.text))
-    symbol = QRectF(0, row.center().y() - theme.px(15), theme.px(60), theme.px(16)) if two else row
-    write(painter, symbol, NAMES[name], -1, theme.px(13))
-    if two:
-        painter.setPen(QColor(theme.muted))
-        words = fitting(tr(SHORT[name]), places.ends[0] - GAP, theme.tick)
-        write(painter, QRectF(0, row.center().y(), theme.px(66), theme.px(13)), words, -1, theme.tick)
+    above = QRectF(0, row.center().y() - theme.px(15), theme.px(60), theme.px(16)) if two else row
+    write(painter, above, NAMES[name], -1, theme.px(13))
+    beside = QRectF(symbol, row.top(), places.ends[0] - symbol, row.height())
+    room = QRectF(0, row.center().y(), places.ends[0], theme.px(13)) if two else beside
+    painter.setPen(QColor(theme.muted))
+    write(painter, room, fitting(tr(SHORT[name]), room.width() - GAP, theme.tick), -1, theme.tick)
 
 
 def paint_slider(
