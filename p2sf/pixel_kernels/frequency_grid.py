@@ -86,7 +86,7 @@ def fits_of(lens: Lens, sources: Sequence[Source], level: Level) -> tuple[Fits, 
     rays = [all_reaching(on_sensor(lens, [sources[k] for k in group], *points)).along_axis(lens) for group in groups]
     found, order = [fit_terms(some, level) for some in rays], np.argsort(np.concatenate(groups))
     landed = [np.concatenate(np.broadcast_arrays(some.chief_x, some.chief_y), axis=1) for some in rays]
-    left = [residuals(some, level, terms).waves for some, terms in zip(rays, found, strict=True)]
+    left = [residuals(some, level, terms).of_phase for some, terms in zip(rays, found, strict=True)]
     functions = [level.function(*terms) for terms in found]
     values = np.concatenate([one.values for one in functions])[order]
     return (replace(functions[0], values=values), np.concatenate(left)[order]), np.concatenate(landed)[order]

@@ -335,9 +335,9 @@ def _slopes_of_phase(rays: Rays, level: Level, fx: np.ndarray, fy: np.ndarray) -
 class Residuals(NamedTuple):
     """RMS errors of fits, each (…): of the phase where rays land, of (fx, fy) and of the amplitude over its mean."""
 
-    waves: np.ndarray
-    map: np.ndarray
-    amplitude: np.ndarray
+    of_phase: np.ndarray
+    of_map: np.ndarray
+    of_amplitude: np.ndarray
 
 
 def fit_terms(rays: Rays, level: Level) -> RayTerms:
