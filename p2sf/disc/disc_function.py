@@ -74,7 +74,8 @@ class DiscFunction:
             squares, heights = self._powers_at(xi[some], eta[some])
             for odd, table in self._tables:
                 part = _sum(table, squares, heights)
-                part[..., odd, :] *= xi[some]
+                for channel in odd:
+                    part[..., channel, :] *= xi[some]
                 found[..., some] += part
         return found
 
