@@ -11,9 +11,8 @@ from typing import cast
 
 import numpy as np
 
-from p2sf.conventions import write_protect
-from p2sf.disc.quadrature import whole_disc
-from p2sf.disc.zernike import basis
+from p2sf.disc.disc_function import DiscFunction
+from p2sf.disc.domain import WHOLE
 from p2sf.errors import RequestError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
@@ -24,8 +23,7 @@ from p2sf.tolerance.errors_of_build import GRADES, MOVES, UNITS, Kind, Tolerance
 
 NAME = re.compile(rf"({'|'.join(UNITS)}):(\d+)(?:-(\d+))?")
 STEPS = GRADES["high"]  # of differences of rays: so small that W changes linearly
-RAYS = 8, 20  # radii and directions, whose sums are exact for the terms below
-ORDER = 8  # of the polynomials that a change of the wavefront is described by
+RAYS = 8, 20  # radii and directions, which describe a change of the wavefront to order 9
 
 
 def perturbation(name: str, surfaces: int) -> Tolerance | None:
@@ -58,12 +56,11 @@ def unit_of(name: str) -> str | None:
 class Perturbed:
     """What errors of a build do to the wavefront of a point, in waves and along the sensor's axes.
 
-    ``change``: of W at the errors given, (terms,), by polynomials over the pupil. ``slopes``: per unit of each error,
-    (errors, terms). ``landing_um`` and ``landing_slopes``: how far the chief ray moves, (2,) and (errors, 2).
+    ``change``: of W at the errors given, and then per unit of each error, as channels. ``landing_um`` and
+    ``landing_slopes``: how far the chief ray moves, (2,) and (errors, 2).
     """
 
-    change: np.ndarray
-    slopes: np.ndarray
+    change: DiscFunction
     landing_um: np.ndarray
     landing_slopes: np.ndarray
 
@@ -72,9 +69,9 @@ class Perturbed:
 
         That of another colour lands elsewhere, since errors add lateral colour.
         """
-        terms, frequencies = _terms(nodes.xi, nodes.eta), np.stack([nodes.fx, nodes.fy])
+        (change, *slopes), frequencies = self.change.at(nodes.xi, nodes.eta), np.stack([nodes.fx, nodes.fy])
         aside, per_unit = self.landing_um - landed.landing_um, self.landing_slopes - landed.landing_slopes
-        return self.change @ terms - aside @ frequencies, self.slopes @ terms - per_unit @ frequencies
+        return change - aside @ frequencies, np.array(slopes) - per_unit @ frequencies
 
 
 @lru_cache(maxsize=16)
@@ -92,29 +89,18 @@ def perturb(lens: Lens, source: Source, errors: tuple[Tolerance, ...], values: t
         step[k] = error.amount
         more, less = (_trace_errors(lens, source, errors, at + sign * step) for sign in (1, -1))
         slopes.append([(a - b) / (2 * error.amount) for a, b in zip(more, less, strict=True)])
-    waves, landing = (np.array(column) for column in zip(*slopes, strict=True))
-    return Perturbed(here[0] - still[0], waves, here[1] - still[1], landing)
+    waves, landing = zip(*slopes, strict=True)
+    change = DiscFunction(np.stack([here[0] - still[0], *waves]), RAYS, (False,) * (1 + at.size), WHOLE)
+    return Perturbed(change, here[1] - still[1], np.array(landing))
 
 
 def _trace_errors(
     lens: Lens, source: Source, errors: Sequence[Tolerance], values: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return W of the lens with errors, (terms,), and where its chief ray lands along the sensor's axes, µm."""
-    xi, eta, weight = whole_disc(*RAYS)
-    built = build(lens, errors, values.tolist())
-    found = reaching(built, source_of_build(lens, built, source), xi, eta)
+    """Return W of the lens with errors, (rays,), and where its chief ray lands along the sensor's axes, µm."""
+    nodes, built = WHOLE.nodes(RAYS), build(lens, errors, values.tolist())
+    found = reaching(built, source_of_build(lens, built, source), nodes.xi, nodes.eta)
     # The way back from the field's axes to the sensor's.
     across, along = found.chief_um
     x, y = rotate(across, along, -float(np.deg2rad(source.azimuth_deg)))
-    return -_ray_terms() @ (weight * found.phase), np.array([x, y])  # W has the other sign than the phase of rays
-
-
-@lru_cache(maxsize=1)
-def _ray_terms() -> np.ndarray:
-    xi, eta, _ = whole_disc(*RAYS)
-    return write_protect(_terms(xi, eta))
-
-
-def _terms(xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
-    """Return all polynomials up to the order, even and odd in ξ, (terms, points)."""
-    return np.concatenate([basis(ORDER, xi, eta), basis(ORDER, xi, eta, odd=True)])
+    return -found.phase, np.array([x, y])  # W has the other sign than the phase of rays
