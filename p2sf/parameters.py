@@ -387,6 +387,8 @@ ELSEWHERE = (
     Parameter("method", "Method"),
     Parameter("tolerance", "the tolerance"),
     Parameter("clip", "Clip at rims"),
+    Parameter("pixels", "Pixels a side"),
+    Parameter("pixel_um", "Pixel pitch", "µm"),
 )
 PARAMETERS = {each.name: each for each in (*SOURCE_PARAMETERS, *CAMERA_PARAMETERS, *MASK_PARAMETERS, *ELSEWHERE)}
 

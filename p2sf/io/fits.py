@@ -5,6 +5,7 @@ import json
 import os
 import warnings
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from itertools import islice
 from types import MappingProxyType
 from typing import Any, BinaryIO
@@ -75,7 +76,7 @@ def first_picture(path: str | os.PathLike[str]) -> tuple[np.ndarray, Any]:
     Raises ExportError without astropy; OSError, ValueError, KeyError and TypeError for what cannot be read.
     """
     fits = astropy_fits()
-    with warnings.catch_warnings(action="ignore"), open_file(path) as stream:
+    with open_file(path) as stream, _damage(fits):
         size = size_of(stream)
         head = stream.read(LONGEST_TEXT)
         if not head.startswith(SIMPLE) or END not in head:  # astropy would unpack it, or look for its end for ever
@@ -89,12 +90,24 @@ def first_picture(path: str | os.PathLike[str]) -> tuple[np.ndarray, Any]:
     raise ValueError("no picture in it")
 
 
-def read_meta(path: str | os.PathLike[str]) -> Any:
-    """Return the facts in the header of a FITS file that this program wrote, as JSON has them.
+def picture_and_meta(path: str | os.PathLike[str]) -> tuple[np.ndarray, Any]:
+    """Return the samples of a FITS file that this program wrote, and the facts in its header, as JSON has them.
 
     Raises as `first_picture`, and KeyError for another file.
     """
-    return parse_json(first_picture(path)[1][META])
+    values, header = first_picture(path)
+    with _damage(astropy_fits()):
+        return values, parse_json(header[META])
+
+
+@contextmanager
+def _damage(fits: Any) -> Iterator[None]:
+    """Raise ValueError for a card that astropy cannot read, whose own error is neither that nor an OSError."""
+    try:
+        with warnings.catch_warnings(action="ignore"):
+            yield
+    except fits.VerifyError as error:
+        raise ValueError(str(error)) from error
 
 
 def astropy_fits() -> Any:

@@ -12,7 +12,7 @@ from p2sf.figures.psf_data import PsfData
 from p2sf.figures.record import CONVENTIONS
 from p2sf.files.reading import LONGEST_TEXT, check_unpacked, first_page, open_file, parse_json, read_arrays, size_of
 from p2sf.files.writing import by_ending, write_arrays, write_beside
-from p2sf.io.fits import FITS, META, axis_cards, first_picture, write_image
+from p2sf.io.fits import FITS, axis_cards, picture_and_meta, write_image
 from p2sf.io.record import caption, csv_head, with_facts
 from p2sf.io.tiff import write_pages
 from p2sf.version import program_version
@@ -97,8 +97,8 @@ def _read_csv(path: str | os.PathLike[str]) -> tuple[np.ndarray, Any]:
 
 
 def _read_fits(path: str | os.PathLike[str]) -> tuple[np.ndarray, Any]:
-    values, header = first_picture(path)
-    return values.astype(float), parse_json(header[META])
+    values, meta = picture_and_meta(path)
+    return values.astype(float), meta
 
 
 WRITERS = {

@@ -135,6 +135,9 @@ def test_one_psf_goes_to_fits_and_back_exactly_and_astropy_finds_its_axes(lens, 
         assert [head[key] for key in ("CRPIX1", "CRPIX2", "CDELT1", "CUNIT2")] == [13, 13, 1.5, "um"]
     with pytest.raises(ExportError, match=r"none.fits cannot be read"):
         read_psf(tmp_path / "none.fits")
+    path.write_bytes(path.read_bytes().replace(b"CONTINUE  '", b"CONTINUE  x", 1))
+    with pytest.raises(ExportError, match="is not a PSF that this program wrote"):
+        read_psf(path)
 
 
 def test_fits_without_its_library_says_what_to_install(monkeypatch, cube, tmp_path):

@@ -56,7 +56,7 @@ OPTIONS = (
     "--sampling",
 )
 LENSES = ("double_gauss_28", "eye_navarro", "relay", "plano_convex")
-PSF_ENDINGS = (".npz", ".tiff", ".csv")
+PSF_ENDINGS = (".npz", ".tiff", ".csv", ".fits")
 COMMANDS = ("info", "coefficients", "psf")
 
 

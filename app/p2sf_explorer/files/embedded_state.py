@@ -120,9 +120,9 @@ def _in_tiff(path: PathLike) -> Any:
 
 
 def _in_fits(path: PathLike) -> Any:
-    from p2sf.io.fits import read_meta
+    from p2sf.io.fits import picture_and_meta
 
-    return read_meta(path).get(ENTRY)
+    return picture_and_meta(path)[1].get(ENTRY)
 
 
 def _in_csv(path: PathLike) -> Any:

@@ -1316,6 +1316,7 @@
 <message><source>along y</source><translation>längs y</translation></message>
 <message><source>an FFT needs an even number of PSF samples, not {pixels}; add one or use mdft</source><translation>eine FFT braucht eine gerade Anzahl von PSF-Proben, nicht {pixels}; eine hinzufügen oder mdft nehmen</translation></message>
 <message><source>an FFT of square samples does not resolve the edges of a mask; use mdft</source><translation>eine FFT quadratischer Abtastwerte zeigt keine Kanten einer Maske; mdft verwenden</translation></message>
+<message><source>an FFT of square samples shows no edges of rims; use mdft, or leave {parameter} off</source><translation>eine FFT aus quadratischen Abtastwerten zeigt keine Kanten von Fassungen; mdft nehmen oder {parameter} weglassen</translation></message>
 <message><source>an FFT of {samples} × {samples} pupil samples is too large; use mdft or change the pixel</source><translation>eine FFT von {samples} × {samples} Pupillenproben ist zu groß; mdft nehmen oder das Pixel ändern</translation></message>
 <message><source>an afocal lens has no f-number; state the stop's semi-diameter</source><translation>ein afokales Objektiv hat keine Blendenzahl; den Halbmesser der Blende angeben</translation></message>
 <message><source>an afocal lens has no f-number; state the stop's semi-diameter or the pupil's diameter</source><translation>ein afokales Objektiv hat keine Blendenzahl; den Halbmesser der Blende oder den Durchmesser der Pupille angeben</translation></message>
