@@ -17,7 +17,7 @@ from p2sf.errors import Cancelled
 from p2sf.metrics.frequency_pupil import FrequencyPupil
 from p2sf.threads import never
 
-AT_ONCE = 2**15  # samples of the lines in one block, so that a block stays in the cache
+AT_ONCE = 2**14  # samples of the lines in one block, so that a block stays in the cache
 MARGIN = 2  # samples beyond the box at either end
 END = 3  # samples at the end of an interval whose weights differ from 1
 ENDS = np.arange(END)[:, None]
@@ -82,7 +82,7 @@ class LagSums:
     def __init__(self, size: int):
         from scipy.fft import next_fast_len
 
-        self._length = next_fast_len(2 * size + 1)
+        self._length = next_fast_len(2 * size)
         self._power = np.zeros(self._length)
 
     def add(self, lines: np.ndarray) -> None:
