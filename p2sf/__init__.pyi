@@ -50,13 +50,13 @@ from p2sf.lens.source import Source as Source
 from p2sf.lensfile.writing import write_lens as write_lens
 from p2sf.measure.fitting.point_fit import PointFit as PointFit
 from p2sf.measure.single_psf import fit_psf as fit_psf
-from p2sf.metrics.opd_pupil import Pupil as Pupil
-from p2sf.metrics.opd_pupil import fit_zernike as fit_zernike
 from p2sf.named_arrays import NamedArrays as NamedArrays
 from p2sf.paraxial.positions import lens_at as lens_at
 from p2sf.paraxial.seidel import Coefficients as Coefficients
 from p2sf.psf.from_opd import psf_of_opd as psf_of_opd
 from p2sf.psf.methods import Choice as Choice
+from p2sf.psf.opd_pupil import Pupil as Pupil
+from p2sf.psf.opd_pupil import fit_zernike as fit_zernike
 from p2sf.psf.reading import read_psf as read_psf
 from p2sf.psf.result import Psf as Psf
 from p2sf.pupil.zernike_fit import ZernikeFit as ZernikeFit

@@ -24,7 +24,7 @@ from p2sf.threads import using_threads
 if TYPE_CHECKING:
     from p2sf.disc.zernike_terms import ZernikeOrder
     from p2sf.figures.measures import Energy, LineSpread, Mtf
-    from p2sf.metrics.measures import PupilPart
+    from p2sf.psf.measures import PupilPart
     from p2sf.psf.methods import Choice
     from p2sf.psf.result import Psf
     from p2sf.pupil.zernike_fit import ZernikeFit
@@ -328,8 +328,8 @@ def mtf(
     >>> [round(float(value), 2) for value in found.sagittal]
     [1.0, 0.86]
     """
-    from p2sf.metrics.measures import mtf_of
-    from p2sf.metrics.transfer import line_counts
+    from p2sf.figures.transfer import line_counts
+    from p2sf.psf.measures import mtf_of
 
     check_finite("turn_deg", turn_deg)
     how = {"method": method, "clip": clip, "turn_deg": turn_deg, "check": line_counts}
@@ -372,7 +372,7 @@ def encircled_energy(
     >>> round(found.radius_80_um, 1)
     8.7
     """
-    from p2sf.metrics.measures import energy_in
+    from p2sf.psf.measures import energy_in
 
     parts, used = _pupil_parts(lens, source, spectrum, camera, method=method, clip=clip)
     return energy_in(parts, used, radius_um)
@@ -413,8 +413,8 @@ def line_spread(
     >>> round(float(found.edge_x[0]), 3)
     0.5
     """
-    from p2sf.metrics.measures import spread_of
-    from p2sf.metrics.transfer import line_counts
+    from p2sf.figures.transfer import line_counts
+    from p2sf.psf.measures import spread_of
 
     parts, used = _pupil_parts(lens, source, spectrum, camera, method=method, clip=clip, check=line_counts)
     return spread_of(parts, used, position_um)
@@ -425,7 +425,7 @@ def _pupil_parts(
 ) -> "tuple[list[PupilPart], str]":
     """Return the pupils of a source, one per wavelength, and the method that described them, as `parts_of` has both."""
     from p2sf.colour.spectrum import spectrum_of
-    from p2sf.metrics.measures import parts_of
+    from p2sf.psf.measures import parts_of
 
     setup = set_up_source(lens, source, camera)
     wanted = None if spectrum is None else spectrum_of(spectrum)

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
     from p2sf.api import Method, PupilMethod
     from p2sf.disc.zernike_terms import ZernikeOrder
-    from p2sf.metrics.measures import PupilPart
+    from p2sf.psf.measures import PupilPart
     from p2sf.psf.result import Psf
 
 OF_THE_SOURCE = "depth_mm", "field_x_deg", "field_deg", "wavelength_nm"
@@ -211,7 +211,7 @@ class Sweep:
         )
 
     def performance(self, frequency_per_mm: ArrayLike = (10.0, 30.0), *, clip: bool = False) -> NamedArrays:
-        """Return what an engineer reads first, by exact rays: see `p2sf.metrics.performance.Performance`.
+        """Return what an engineer reads first, by exact rays: see `p2sf.studies.performance.Performance`.
 
         ``rms_waves``, ``strehl``, contrasts ``tangential`` and ``sagittal`` at ``frequency_per_mm``, ``radius_80_um``,
         ``distortion``, ``illumination`` and ``lateral_colour_um``; NaN where there is no such figure.
@@ -309,9 +309,9 @@ class SweepPoint:
     def parts(
         self, method: str, clip: bool = False, spectrum: str | None = None, turn_deg: float = 0.0, **how: Any
     ) -> "tuple[list[PupilPart], str]":
-        """Return the pupils that MTF, energy and spreads are of, as `p2sf.metrics.measures.parts_of` does, kept."""
+        """Return the pupils that MTF, energy and spreads are of, as `p2sf.psf.measures.parts_of` does, kept."""
         from p2sf.colour.spectrum import spectrum_of
-        from p2sf.metrics.measures import parts_of
+        from p2sf.psf.measures import parts_of
 
         key = method, clip, spectrum, turn_deg
         if key not in self._parts_by_request:
@@ -378,26 +378,26 @@ def _or_nan(value: Any) -> Any:
 
 
 def _mtf_of(point: SweepPoint, frequency_per_mm: np.ndarray, turn_deg: float, **how: Any) -> Figures:
-    from p2sf.metrics.measures import mtf_of
+    from p2sf.psf.measures import mtf_of
 
     return vars(mtf_of(*point.parts(turn_deg=turn_deg, **how), frequency_per_mm, turn_deg=turn_deg))
 
 
 def _energy_of(point: SweepPoint, radius_um: np.ndarray, **how: Any) -> Figures:
-    from p2sf.metrics.measures import energy_in
+    from p2sf.psf.measures import energy_in
 
     return vars(energy_in(*point.parts(**how), radius_um))
 
 
 def _performance_of(point: SweepPoint, frequency_per_mm: np.ndarray, clip: bool) -> Figures:
-    from p2sf.metrics.performance import performance_of
+    from p2sf.studies.performance import performance_of
 
     setup = point.setup
     return vars(performance_of(setup.lens, setup.source, frequency_per_mm, clip, partial(point.parts, "traced", clip)))
 
 
 def _lines_of(point: SweepPoint, position_um: np.ndarray, **how: Any) -> Figures:
-    from p2sf.metrics.measures import spread_of
+    from p2sf.psf.measures import spread_of
 
     return vars(spread_of(*point.parts(**how), position_um))
 

@@ -17,12 +17,12 @@ from p2sf.conventions import centred_axis, slope_from_degrees
 from p2sf.disc.quadrature import cell_areas
 from p2sf.disc.transform import matrix_dft
 from p2sf.errors import RequestError, SamplingError
+from p2sf.figures.compare import r_squared
 from p2sf.io import psf_plot
 from p2sf.lens.lens import with_aim, with_sensor
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf import methods
-from p2sf.psf.compare import r_squared
 from p2sf.psf.pixel_integrals import render_integrated
 from p2sf.setting import Request, set_up, set_up_source
 from tests.support.interpreter import loaded_by

@@ -23,7 +23,7 @@ LAYERS = (
     "p2sf.setting p2sf.lensfile p2sf.figures",
     "p2sf.io",
     "p2sf.psf p2sf.pixel_kernels",
-    "p2sf.metrics p2sf.scene",
+    "p2sf.scene",
     "p2sf.tolerance p2sf.database p2sf.image",
     "p2sf.export p2sf.measure p2sf.studies",
     "p2sf.api p2sf_explorer.i18n p2sf_explorer.state",
@@ -138,7 +138,7 @@ application.processEvents()
 NOT_NEEDED = {
     "import p2sf": ("numpy", "scipy", "p2sf.lens", "p2sf.setting"),
     "from p2sf.cli import main; main(['info', 'double_gauss_28'])": (
-        *("scipy", "finufft", "p2sf.psf", "p2sf.metrics", "p2sf.pixel_kernels", "p2sf.scene", "p2sf.image.form"),
+        *("scipy", "finufft", "p2sf.psf", "p2sf.figures", "p2sf.pixel_kernels", "p2sf.scene", "p2sf.image.form"),
         *("p2sf.database", "p2sf.tolerance", "p2sf.measure", "p2sf.studies", "p2sf.export", "p2sf_explorer"),
     ),
     FIRST_PICTURE: (

@@ -20,7 +20,7 @@ from p2sf.files.writing import plain
 from p2sf.io.psf_files import ENDINGS, write_psf
 from p2sf.lensfile.library import find_lens
 from p2sf.messages import Message, ParameterName
-from p2sf.metrics.measures import energy_in, parts_of
+from p2sf.psf.measures import energy_in, parts_of
 from p2sf.psf.methods import AUTO, by_six
 from p2sf.psf.pixel_integrals import render_setup
 from p2sf.psf.prediction import ALLOWED, TOO_FAR, USELESS

@@ -11,11 +11,11 @@ from cyclopts import Parameter
 from p2sf.cli.cautions import crossed_surfaces, open_lens
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName, Output, check_output
 from p2sf.cli.screen import FILLED, heading, print_json, print_table, warn
+from p2sf.figures.perfect import airy_radius_um
+from p2sf.figures.spot import DRAWN_RINGS
+from p2sf.figures.spot import spot as spot_of
 from p2sf.files.writing import plain, write_beside, write_json
 from p2sf.io.record import csv_head, describe
-from p2sf.metrics.perfect import airy_radius_um
-from p2sf.metrics.spot import DRAWN_RINGS
-from p2sf.metrics.spot import spot as spot_of
 from p2sf.parameters import check_whole
 from p2sf.raytrace.field_geometry import cone
 from p2sf.setting import Setup, set_up

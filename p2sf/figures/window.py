@@ -1,7 +1,7 @@
 """Figures computed from the samples of a PSF alone: peak, centre, energy, profiles, contrast (handbook 6.3).
 
 Every function takes a PSF of any stack shape and works on the light inside its window; ``psf.energy`` is its share,
-and `resolved` tells whether samples are close enough. If the lens is known, `p2sf.metrics.measures` needs neither
+and `resolved` tells whether samples are close enough. If the lens is known, `p2sf.psf.measures` needs neither
 window nor samples.
 """
 

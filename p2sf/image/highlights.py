@@ -11,9 +11,9 @@ from math import ceil, pi
 import numpy as np
 
 from p2sf.disc.mask_cells import wings
+from p2sf.figures.tails import FAINTEST, FARTHEST
 from p2sf.image.lattice import pad_to_largest
 from p2sf.image.region import Region, whole
-from p2sf.metrics.tails import FAINTEST, FARTHEST
 from p2sf.parameters import LARGEST_SIDE
 from p2sf.pixel_kernels.channel import RAYS, Colour, Kernels, Points
 from p2sf.pixel_kernels.pixels import samples_each

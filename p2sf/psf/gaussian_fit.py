@@ -6,8 +6,8 @@ from time import perf_counter
 
 import numpy as np
 
+from p2sf.figures.compare import r_squared
 from p2sf.messages import Message
-from p2sf.psf.compare import r_squared
 from p2sf.psf.result import Psf
 from p2sf.threads import one_blas_thread
 

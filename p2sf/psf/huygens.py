@@ -19,10 +19,10 @@ from p2sf.conventions import centred_axis
 from p2sf.disc.domain import ClearNodes
 from p2sf.disc.quadrature import SETTLED_TOLERANCE
 from p2sf.errors import Cancelled, GeometryError, SamplingError
+from p2sf.figures.compare import r_squared
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
-from p2sf.psf.compare import r_squared
 from p2sf.psf.peak import peak_of
 from p2sf.psf.picture import Window, psf_of_intensity, resolved
 from p2sf.psf.prediction import CAUTION, EDGE_ERROR, TRACED_ERROR

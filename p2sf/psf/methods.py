@@ -16,12 +16,12 @@ from p2sf.conventions import UM_PER_MM
 from p2sf.disc.mask import PupilMask
 from p2sf.disc.quadrature import SETTLED_TOLERANCE
 from p2sf.errors import GeometryError, P2SFError, RequestError, SamplingError
+from p2sf.figures.compare import flatness_of
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message
 from p2sf.parameters import check_samples
 from p2sf.paraxial.seidel import Coefficients, check_seidel, coefficients, reason_against_coefficients
-from p2sf.psf.compare import flatness_of
 from p2sf.psf.fitted import MOST_NODES as MOST_FITTED
 from p2sf.psf.fitted import NodesOf, psf_of_fit
 from p2sf.psf.gaussian_fit import gaussian_psf

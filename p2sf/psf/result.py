@@ -11,9 +11,9 @@ from numpy.typing import ArrayLike, DTypeLike
 
 from p2sf.conventions import NM_PER_UM
 from p2sf.errors import P2SFWarning
+from p2sf.figures.compare import flatness_of
 from p2sf.figures.psf_data import Figure, Later, PsfData
 from p2sf.messages import Message, ParameterName
-from p2sf.psf.compare import flatness_of
 
 if TYPE_CHECKING:
     import xarray

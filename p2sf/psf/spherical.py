@@ -16,18 +16,17 @@ from math import hypot, inf, pi, prod
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM, centred_axis
-from p2sf.disc.domain import WHOLE, PupilDomain
+from p2sf.disc.domain import PupilDomain
 from p2sf.errors import P2SFError, SamplingError
+from p2sf.figures.compare import r_squared
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import RayPupil, first_counts, ray_waves
 from p2sf.psf.prediction import CAUTION
 from p2sf.pupil.fit import level_rays, levels_for
 from p2sf.pupil.plane_waves import Counts, Waves
 from p2sf.pupil.smooth_pupil import all_reach, interpolated_waves
-from p2sf.pupil.spherical_waves import SphericalWaves, waves_from
-from p2sf.raytrace.exit_sphere import ExitSphere, exit_sphere
+from p2sf.raytrace.exit_sphere import exit_sphere
 from p2sf.raytrace.pencil import Rays, exit_radius, pencil
 from p2sf.raytrace.ray_field import AIRY_RADIUS, Steepness, steepness
 from p2sf.threads import one_blas_thread
@@ -166,21 +165,6 @@ def worth_spherical(lens: Lens, source: Source, clip: bool) -> bool:
         return plane_wave_bound(lens, source, rays, weight, steepness(rays, xi, eta)) > CAUTION
     except P2SFError:
         return False
-
-
-def beyond_plane_waves(lens: Lens, source: Source, sphere: ExitSphere) -> float:
-    """Return the RMS phase, in waves, by which wavelets differ from the plane waves that agree at the chief ray.
-
-    Over a coarse pencil and where its rays land, less the mean over the rays, which no picture shows.
-    """
-    xi, eta, weight = level_rays(levels_for(lens)[0])
-    rays = pencil(lens, source, xi[: weight.size], eta[: weight.size]).arrived
-    seen, length = sphere.seen_from(rays)
-    field = np.ones(rays.dx.size, complex)
-    waves = waves_from(Waves(field, seen.fx, seen.fy, WHOLE, 0.0), sphere, length)
-    assert isinstance(waves, SphericalWaves)
-    turn = np.angle(waves.factor(slice(None), rays.x_um, rays.y_um)) / (2 * pi)
-    return float(np.sqrt(np.mean((turn - turn.mean(0)) ** 2)))
 
 
 @lru_cache(maxsize=64)

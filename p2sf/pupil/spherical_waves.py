@@ -14,16 +14,20 @@ give all others (Cheng, Gimbutas, Martinsson & Rokhlin 2005), and each column is
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import inf
+from math import inf, pi
 
 import numpy as np
 from numpy.typing import DTypeLike
 
 from p2sf.conventions import UM_PER_MM, FloatOrArray
 from p2sf.disc.domain import WHOLE
+from p2sf.lens.lens import Lens
+from p2sf.lens.source import Source
 from p2sf.pupil.cost import COLUMN_SECONDS, PAIR_SECONDS
+from p2sf.pupil.fit import level_rays, levels_for
 from p2sf.pupil.plane_waves import Waves
 from p2sf.raytrace.exit_sphere import ExitSphere
+from p2sf.raytrace.pencil import pencil
 
 PROBED = 256  # nodes, and places PROBED_SIDE² of a grid, that show the rank
 PROBED_SIDE = 12
@@ -208,3 +212,18 @@ def _beyond_plane(
     far = np.copysign(np.sqrt(length * length + 2 * length * along + square), length)
     more = (2 * length * along + square) / (far + length)
     return more, (square - along * more) / (far + length)
+
+
+def beyond_plane_waves(lens: Lens, source: Source, sphere: ExitSphere) -> float:
+    """Return the RMS phase, in waves, by which wavelets differ from the plane waves that agree at the chief ray.
+
+    Over a coarse pencil and where its rays land, less the mean over the rays, which no picture shows.
+    """
+    xi, eta, weight = level_rays(levels_for(lens)[0])
+    rays = pencil(lens, source, xi[: weight.size], eta[: weight.size]).arrived
+    seen, length = sphere.seen_from(rays)
+    field = np.ones(rays.dx.size, complex)
+    waves = waves_from(Waves(field, seen.fx, seen.fy, WHOLE, 0.0), sphere, length)
+    assert isinstance(waves, SphericalWaves)
+    turn = np.angle(waves.factor(slice(None), rays.x_um, rays.y_um)) / (2 * pi)
+    return float(np.sqrt(np.mean((turn - turn.mean(0)) ** 2)))

@@ -89,7 +89,7 @@ class Scene:
     the pixels resolve; ``min_psnr_db``, the least peak signal-to-noise ratio, dB, of a picture of white noise between
     black and white. Pictures with most of their light at low frequencies have smaller errors. ``tail_error`` is the
     relative error of every kernel, and of the azimuthal mean of its faint light wherever that is at least 1e-6 of its
-    peak within 200 Airy radii (`p2sf.metrics.tails`), which pictures of very bright points need.
+    peak within 200 Airy radii (`p2sf.figures.tails`), which pictures of very bright points need.
 
     ``focus_mm``, ``f_number``, ``zoom``, ``focus_position`` and ``aim`` are as in `p2sf.Camera`; None leaves them as
     the lens file has them. With ``clip`` the rims of all surfaces clip rays. ``depth_map`` names a picture of depths;

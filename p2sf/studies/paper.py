@@ -7,6 +7,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING, BinaryIO
 
 from p2sf.conventions import NM_PER_UM, slope_from_degrees
+from p2sf.figures.compare import r_squared
 from p2sf.glass.media import AIR
 from p2sf.lens.lens import AIMS, Lens, with_aim
 from p2sf.lens.source import Source
@@ -14,7 +15,6 @@ from p2sf.lensfile.library import find_lens, shipped_lenses
 from p2sf.paraxial.first_order import cardinal_points, image_distance
 from p2sf.paraxial.pupils import find_stop, pupils
 from p2sf.paraxial.seidel import coefficients
-from p2sf.psf.compare import r_squared
 from p2sf.psf.fitted import fitted_psf
 from p2sf.psf.gaussian_fit import gaussian_psf
 from p2sf.psf.huygens import huygens_psf

@@ -7,11 +7,11 @@ import numpy as np
 from p2sf.conventions import NM_PER_UM, UM_PER_MM, slope_from_degrees
 from p2sf.database.build import build_exact
 from p2sf.database.space import Space
+from p2sf.figures.compare import r_squared
 from p2sf.lens.lens import Lens, with_aim, with_f_number, with_sensor
 from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import find_stop
 from p2sf.paraxial.seidel import coefficients
-from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.seidel import seidel_psf
 from p2sf.spans import depth_nodes

@@ -13,11 +13,11 @@ from typing import BinaryIO
 from numpy.typing import ArrayLike
 
 from p2sf.arguments import check_arguments, number_list
+from p2sf.figures.compare import Errors, compare
 from p2sf.html import html_table
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
-from p2sf.metrics.compare import Errors, compare
 from p2sf.parameters import check_angle, check_samples
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.huygens import huygens_psf

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from p2sf.conventions import NM_PER_UM, slope_from_degrees
+from p2sf.figures.compare import r_squared
 from p2sf.glass.catalogue import find_entry
 from p2sf.glass.media import CatalogueGlass, ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, with_aim, with_f_number
@@ -18,7 +19,6 @@ from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.first_order import abcd, cardinal_points
 from p2sf.paraxial.pupils import find_stop, pupils
 from p2sf.paraxial.seidel import coefficients
-from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.seidel import seidel_psf
 from p2sf.pupil.zernike_fit import zernike_fit

@@ -18,10 +18,10 @@ import numpy as np
 from p2sf.conventions import centred_axis
 from p2sf.disc.quadrature import gauss_legendre
 from p2sf.disc.transform import sum_plane_waves
+from p2sf.figures.compare import r_squared
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
-from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import RayPupil, first_counts
 from p2sf.psf.prediction import CAUTION
 from p2sf.psf.result import Psf

@@ -15,10 +15,10 @@ from threadpoolctl import threadpool_limits
 
 from p2sf.conventions import slope_from_degrees
 from p2sf.disc.quadrature import cell_areas
+from p2sf.figures.compare import r_squared
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.seidel import coefficients
-from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import PsfOptions, render
 from p2sf.psf.opd_array import opd_intensity

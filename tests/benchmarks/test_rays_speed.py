@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_limits
 
+from p2sf.figures.compare import r_squared
 from p2sf.lens.lens import indices
 from p2sf.paraxial.seidel import coefficients
-from p2sf.psf.compare import r_squared
 from p2sf.psf.fitted import fitted_psf
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import choose, render

@@ -12,11 +12,11 @@ import pytest
 from threadpoolctl import threadpool_limits
 
 from p2sf.disc.quadrature import cell_areas
+from p2sf.figures.compare import r_squared, relative_l2
 from p2sf.lens.lens import with_sensor
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.seidel import Coefficients, coefficients
 from p2sf.paraxial.wavefront import wavefront
-from p2sf.psf.compare import r_squared, relative_l2
 from p2sf.psf.opd_array import opd_intensity
 from p2sf.psf.seidel import plain_intensity, seidel_psf
 from p2sf.psf.seidel_sum import wave_number

@@ -9,6 +9,7 @@ import pytest
 from p2sf.cli import main
 from p2sf.colour.spectrum import relative_power, spectrum_of
 from p2sf.errors import ExportError, GeometryError, LensFileError, RequestError, SamplingError
+from p2sf.figures.spot import spot
 from p2sf.glass.media import ConstantIndex, catalogue_glass
 from p2sf.io.photo_files import read_photo
 from p2sf.lens.lens import Aperture, Lens, Surface, with_aim
@@ -18,7 +19,6 @@ from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens, load_lens
 from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.lensfile.writing import SILICA_LABEL, write_lens
-from p2sf.metrics.spot import spot
 from p2sf.paraxial.pupils import pupils
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.reading import read_psf

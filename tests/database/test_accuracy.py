@@ -13,9 +13,9 @@ from p2sf.database.build import build_database
 from p2sf.database.files.npz import database_bytes, database_from_bytes
 from p2sf.database.render import database_psf
 from p2sf.database.space import Space
+from p2sf.figures.compare import r_squared
 from p2sf.lens.lens import with_f_number
 from p2sf.lensfile.library import find_lens
-from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import whole_pixel_um
 from p2sf.psf.prediction import ALLOWED

@@ -11,14 +11,14 @@ import pytest
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import P2SFError
+from p2sf.figures.perfect import diffraction_mtf
 from p2sf.lens.lens import Aperture, Lens, with_aim, with_sensor
 from p2sf.lens.source import Source
-from p2sf.metrics.measures import energy_in, mtf_of, parts_of
-from p2sf.metrics.perfect import diffraction_mtf
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.pupils import numerical_aperture
+from p2sf.psf.measures import energy_in, mtf_of, parts_of
 from tests.extremes.regimes import BASES, WAVELENGTH, Case, aperture_cases, base, depth_cases, field_cases, scaled
-from tests.metrics.test_laws import check_laws
+from tests.figures.test_laws import check_laws
 from tests.support.airy import circle_energy
 
 AIMS = ("stop", "paraxial")

@@ -5,9 +5,9 @@ import pytest
 
 from p2sf.conventions import centred_axis
 from p2sf.figures.enlarge import cosine_matrix, cubic_matrix, enlarge, is_band_limited
+from p2sf.figures.perfect import airy_radius_um
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.metrics.perfect import airy_radius_um
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.methods import render
 from p2sf.psf.seidel import AIRY_RADIUS

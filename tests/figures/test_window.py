@@ -7,9 +7,9 @@ import pytest
 from scipy.special import j0, j1, jn_zeros
 
 from p2sf.errors import SamplingError
+from p2sf.figures.perfect import airy_radius_um, diffraction_mtf
 from p2sf.figures.psf_data import PsfFigures
 from p2sf.figures.window import centroid, encircled_energy, mtf, peak, profiles, radius_of_energy, resolved
-from p2sf.metrics.perfect import airy_radius_um, diffraction_mtf
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import seidel_psf
 from tests.support.waves import NA, WAVELENGTH_UM, waves

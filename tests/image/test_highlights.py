@@ -5,11 +5,11 @@ import pytest
 
 from p2sf.disc.mask import PupilMask
 from p2sf.errors import RequestError
+from p2sf.figures.tails import FAINTEST
 from p2sf.image.form import Forming, form_image
 from p2sf.image.highlights import BrightLight, add_halo, groups_of
 from p2sf.lens.lens import with_f_number, with_mask
 from p2sf.lensfile.library import find_lens
-from p2sf.metrics.tails import FAINTEST
 from p2sf.pixel_kernels.pixels import rim_gain
 from p2sf.scene.files import read_scene
 from p2sf.scene.planning.plan import plan

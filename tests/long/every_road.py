@@ -31,10 +31,10 @@ import numpy as np
 import p2sf
 from p2sf.camera import Camera
 from p2sf.errors import P2SFError
+from p2sf.figures.spot import spot
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import shipped_lenses
-from p2sf.metrics.spot import spot
 from p2sf.psf.methods import whole_pixel_um
 from p2sf.raytrace.field_geometry import cone
 from p2sf.setting import set_up_source

@@ -11,10 +11,10 @@ from time import process_time
 
 from p2sf.disc.mask import PupilMask
 from p2sf.errors import P2SFError
+from p2sf.figures.tails import tail_error
 from p2sf.lens.lens import Aperture, Lens, Surface, with_f_number, with_mask
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.metrics.tails import tail_error
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import render
 

@@ -28,6 +28,7 @@ import numpy as np
 from p2sf.conventions import centred_axis
 from p2sf.disc.mask import PupilMask
 from p2sf.errors import Cancelled, P2SFError
+from p2sf.figures.compare import r_squared, relative_l2
 from p2sf.lens.lens import Lens, lens_range_um, with_f_number, with_mask, with_sensor
 from p2sf.lens.positions import PARAMETER
 from p2sf.lens.source import Source
@@ -35,7 +36,6 @@ from p2sf.lensfile.library import find_lens, shipped_lenses
 from p2sf.paraxial.first_order import cardinal_points, image_distance
 from p2sf.paraxial.positions import lens_at
 from p2sf.paraxial.seidel import coefficients
-from p2sf.psf.compare import r_squared, relative_l2
 from p2sf.psf.huygens import RayPupil, Watch, first_counts, sum_rays
 from p2sf.psf.methods import PsfOptions, whole_pixel_um
 from p2sf.psf.pixel_integrals import render_integrated

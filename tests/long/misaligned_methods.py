@@ -17,12 +17,12 @@ from math import prod
 import numpy as np
 
 from p2sf.errors import P2SFError
+from p2sf.figures.compare import r_squared
 from p2sf.lens.lens import Lens
 from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source
 from p2sf.paraxial.seidel import coefficients
-from p2sf.psf.compare import r_squared
 from p2sf.psf.fitted import fitted_psf
 from p2sf.psf.huygens import first_counts, huygens_psf, sum_rays
 from p2sf.psf.methods import PsfOptions, choose, render

@@ -21,8 +21,8 @@ from p2sf.errors import P2SFError
 from p2sf.lens.lens import Lens, with_aim, with_f_number, with_sensor
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens, shipped_lenses
-from p2sf.metrics.measures import energy_in, mtf_of, parts_of
 from p2sf.paraxial.pupils import f_number
+from p2sf.psf.measures import energy_in, mtf_of, parts_of
 from tests.support.depths import NEAR_MM, RELAYS_MM
 from tests.support.pupil_sums import LostRays, best_shift_mm, sums
 

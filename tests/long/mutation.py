@@ -41,7 +41,7 @@ BESIDE = {  # where else a folder's numbers are read, by the beginning of its pa
     "app/p2sf_explorer/widgets": ("tests/explorer/panels", "tests/explorer/window"),
     "app/p2sf_explorer/state": ("tests/explorer/window",),
     "p2sf/studies": ("tests/cli",),
-    "p2sf/figures": ("tests/metrics", "tests/io"),
+    "p2sf/figures": ("tests/io",),
     "p2sf/colour": ("tests/io", "tests/image"),
     "p2sf/lens": ("tests/lensfile", "tests/raytrace"),
 }
@@ -78,7 +78,7 @@ EQUIVALENT: dict[tuple[str, str], str] = {
         "noise = np.fft.irfft2((2 * (np.fft.rfft2(random.standard_normal(shape)) * weight)), s=shape)",
     ): "the noise is divided by its own standard deviation",
     (
-        "p2sf/metrics/opd_pupil.py",
+        "p2sf/psf/opd_pupil.py",
         "spectrum = fft.fft(lines, fft.next_fast_len(2 * size + 2))",
     ): "more zeros than the transform needs",
     (

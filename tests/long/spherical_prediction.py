@@ -17,11 +17,11 @@ from pathlib import Path
 import numpy as np
 
 from p2sf.errors import GeometryError, P2SFError, SamplingError
+from p2sf.figures.compare import r_squared
 from p2sf.lens.lens import Lens, with_f_number, with_sensor
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.first_order import image_distance
-from p2sf.psf.compare import r_squared
 from p2sf.psf.methods import render
 from p2sf.psf.spherical import fresnel_number, half_window_um, plane_wave_bound, plane_wave_error
 from p2sf.pupil.fit import level_rays, levels_for

@@ -17,9 +17,9 @@ from time import perf_counter
 import numpy as np
 
 from p2sf.errors import P2SFError
+from p2sf.figures.compare import r_squared
 from p2sf.lensfile.library import shipped_lenses
 from p2sf.psf import huygens
-from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import first_counts, sum_rays
 from p2sf.psf.methods import reference_pupil
 from p2sf.pupil.plane_waves import window_reach_um

@@ -10,16 +10,16 @@ import p2sf
 from p2sf.conventions import centred_axis
 from p2sf.disc.mask import PupilMask
 from p2sf.errors import RequestError
+from p2sf.figures.frequency_pupil import pupil_of_coefficients
+from p2sf.figures.spot import landing
+from p2sf.figures.transfer import otf_slices
 from p2sf.lens.lens import Aperture, Lens, Surface, with_mask
 from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.metrics.frequency_pupil import pupil_of_coefficients
-from p2sf.metrics.measures import PupilPart, energy_in
-from p2sf.metrics.spot import landing
-from p2sf.metrics.transfer import otf_slices
 from p2sf.psf.geometric import geometric_psf
+from p2sf.psf.measures import PupilPart, energy_in
 from p2sf.psf.methods import PsfOptions, render
 from p2sf.psf.seidel import seidel_psf
 from tests.pupil.test_open_part import circles_apart

@@ -15,15 +15,15 @@ import pytest
 import p2sf
 from p2sf import api
 from p2sf.errors import GeometryError, RequestError, SamplingError
+from p2sf.figures.compare import flatness_of, r_squared
 from p2sf.lens.lens import Aperture, with_aim, with_f_number, with_sensor
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.metrics.measures import PUPILS
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf import cost, methods
-from p2sf.psf.compare import flatness_of, r_squared
 from p2sf.psf.huygens import huygens_psf
+from p2sf.psf.measures import PUPILS
 from p2sf.psf.methods import (
     NAMES,
     QUICK_LEVELS,

@@ -12,13 +12,13 @@ from p2sf.camera import Camera
 from p2sf.conventions import centred_axis
 from p2sf.disc.domain import WHOLE
 from p2sf.errors import Cancelled
+from p2sf.figures.compare import r_squared
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.metrics.measures import energy_in, mtf_of, parts_of
-from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import ray_waves
+from p2sf.psf.measures import energy_in, mtf_of, parts_of
 from p2sf.psf.methods import PsfOptions, PsfRequest, choose, psf_of, render
 from p2sf.psf.peak import climb
 from p2sf.psf.pixel_integrals import render_integrated

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from p2sf.errors import Cancelled, SamplingError
+from p2sf.figures.compare import r_squared
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.psf.compare import r_squared
 from p2sf.psf.fitted import fitted_psf
 from p2sf.psf.huygens import RayPupil, Watch, first_counts, huygens_psf, ray_waves
 from p2sf.psf.traced import traced_psf

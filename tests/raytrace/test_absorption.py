@@ -12,6 +12,7 @@ from p2sf.cli import main
 from p2sf.colour.spectrum import spectrum_of
 from p2sf.disc.quadrature import whole_disc
 from p2sf.errors import GeometryError, GlassError
+from p2sf.figures.spot import landing
 from p2sf.glass.media import ConstantIndex, ShiftedIndex
 from p2sf.glass.transmittance import InternalTransmittance
 from p2sf.lens.lens import Aperture, Lens, Surface, with_absorption
@@ -22,7 +23,6 @@ from p2sf.lensfile.agf import FormulaGlass, read_agf_text
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.source_text import LensText
 from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml
-from p2sf.metrics.spot import landing
 from p2sf.paraxial.lens_checks import lens_checks
 from p2sf.paraxial.seidel import coefficients
 from p2sf.pixel_kernels.illumination import light_collected

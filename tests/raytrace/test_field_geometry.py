@@ -9,12 +9,12 @@ from scipy.special import j1
 
 import p2sf
 from p2sf.errors import GeometryError
+from p2sf.figures.perfect import airy_radius_um
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.anamorphic import Toroid
 from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.lens.misalignment import displaced, folding, straighten
 from p2sf.lens.placement import Placement
-from p2sf.metrics.perfect import airy_radius_um
 from p2sf.paraxial.pupils import find_stop
 from p2sf.pupil.zernike_fit import zernike_fit
 from p2sf.raytrace.field_geometry import cone, exit_pupil

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from p2sf.errors import GeometryError
+from p2sf.figures.fans import opd_fan, ray_fan
 from p2sf.lens.lens import Aperture, Lens, Surface, with_aim, with_sensor
 from p2sf.lens.source import Source
-from p2sf.metrics.fans import opd_fan, ray_fan
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.pupils import numerical_aperture
 from p2sf.paraxial.seidel import coefficients

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from p2sf.errors import RequestError
+from p2sf.figures.compare import r_squared, relative_l2
 from p2sf.lensfile.library import find_lens
-from p2sf.psf.compare import r_squared, relative_l2
 from p2sf.studies.complete_trade import (
     LensTrade,
     Row,

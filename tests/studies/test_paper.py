@@ -6,11 +6,11 @@ from io import BytesIO
 import pytest
 
 from p2sf.cli import main
+from p2sf.figures.compare import r_squared
 from p2sf.lens.lens import AIMS, with_aim, with_f_number, with_sensor
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.seidel import coefficients
-from p2sf.psf.compare import r_squared
 from p2sf.psf.fitted import fitted_psf
 from p2sf.psf.huygens import huygens_psf
 from p2sf.studies.paper import draw_accuracy, draw_timing, elements, fidelity, paper_figures, stage_times

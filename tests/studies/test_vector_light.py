@@ -5,10 +5,10 @@ import pytest
 
 from p2sf.conventions import centred_axis
 from p2sf.disc.quadrature import disc_nodes
+from p2sf.figures.compare import r_squared
 from p2sf.lens.lens import Aperture, Lens, Surface, with_f_number
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.psf.compare import r_squared
 from p2sf.psf.methods import render
 from p2sf.psf.prediction import VECTOR_NA
 from p2sf.studies.vector_light import (

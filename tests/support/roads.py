@@ -19,9 +19,9 @@ import p2sf
 from p2sf.camera import Camera
 from p2sf.cli import main
 from p2sf.errors import P2SFError
+from p2sf.figures.spot import spot
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.metrics.spot import spot
 from p2sf.setting import set_up_source
 from p2sf.tolerance.differentials import differentials
 

@@ -6,8 +6,8 @@ from time import perf_counter
 from typing import Any, Generic, TypeVar
 
 from p2sf.errors import P2SFError
+from p2sf.figures.perfect import airy_radius_um
 from p2sf.messages import Message
-from p2sf.metrics.perfect import airy_radius_um
 from p2sf.psf.methods import PsfRequest
 from p2sf.psf.result import Psf
 from p2sf.pupil.wavefront_map import WavefrontMap

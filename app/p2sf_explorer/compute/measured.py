@@ -6,18 +6,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from p2sf.figures.energy import blur_waves
+from p2sf.figures.frequency_pupil import pupil_of_coefficients, pupil_of_rays
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
-from p2sf.metrics.energy import blur_waves
-from p2sf.metrics.frequency_pupil import pupil_of_coefficients, pupil_of_rays
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.pupil.seen_mask import mask_seen
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.sampled import by_coefficients
 
 if TYPE_CHECKING:
-    from p2sf.metrics.measures import PupilPart
+    from p2sf.psf.measures import PupilPart
 
 LIVE_SAMPLES = 2**18  # of both slices of a transfer function: some 5 ms, and a blur of 64 waves per pupil radius
 LIVE_WAVES = 40.0  # per pupil radius, of a blur whose energy is live: some 15 ms
@@ -61,7 +61,7 @@ def measure_request(live: Live) -> MeasureRequest:
 @lru_cache(maxsize=4)
 def measured_parts(request: MeasureRequest) -> "tuple[PupilPart, ...]":
     """Return the pupil of a request; P2SFError where there is none."""
-    from p2sf.metrics.measures import PupilPart, pupil_of_six
+    from p2sf.psf.measures import PupilPart, pupil_of_six
 
     if request.six:
         six = Coefficients(*map(np.asarray, request.six))
@@ -73,7 +73,7 @@ def measured_parts(request: MeasureRequest) -> "tuple[PupilPart, ...]":
 
 def mtf_is_live(live: Live, request: MeasureRequest) -> bool:
     """Return whether the transfer function is computed within a frame; behind a mask it takes some 15 ms."""
-    from p2sf.metrics.transfer import otf_samples
+    from p2sf.figures.transfer import otf_samples
 
     if takes_long(live) or not request.lens.mask.clear:
         return False

@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 from math import inf
 
 from p2sf.errors import P2SFError, SamplingError
-from p2sf.metrics.tails import tail_error
+from p2sf.figures.tails import tail_error
 from p2sf.psf.cost import nodes_beyond
 from p2sf.psf.methods import METHODS, psf_of
 from p2sf.psf.result import Psf
@@ -25,7 +25,7 @@ AIRY = 0.61  # radius of the first dark ring, λ/NA
 class PredictedCost:
     """One method at this point: its time, inf where a frame cannot wait for it, and its predicted 1 − R².
 
-    ``tails``: the error of its faint light against that of the most exact method here (`p2sf.metrics.tails`).
+    ``tails``: the error of its faint light against that of the most exact method here (`p2sf.figures.tails`).
     """
 
     method: str

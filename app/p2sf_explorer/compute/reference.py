@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from statistics import median
 
 from p2sf.errors import SamplingError
-from p2sf.psf.compare import r_squared, relative_l2
+from p2sf.figures.compare import r_squared, relative_l2
 from p2sf.psf.huygens import Watch, first_counts, sum_rays
 from p2sf.psf.methods import METHODS, PsfOptions, method_of, reference_pupil, render
 from p2sf.psf.result import Psf

@@ -9,15 +9,15 @@ import numpy as np
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
 from p2sf.disc.quadrature import disc_nodes
 from p2sf.disc.tilt import rms
+from p2sf.figures.compare import r_squared as fidelity
 from p2sf.figures.measures import Energy
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.metrics.measures import energy_in, mtf_of
 from p2sf.paraxial.balance import depth_of_focus_um
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.pupils import find_stop
 from p2sf.paraxial.wavefront import wavefront
-from p2sf.psf.compare import r_squared as fidelity
+from p2sf.psf.measures import energy_in, mtf_of
 from p2sf.psf.methods import render
 from p2sf.psf.result import Psf
 from p2sf.raytrace.pencil import displayed_opd

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from p2sf.metrics.fans import Fan
+from p2sf.figures.fans import Fan
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.state.terms import PLACES
 from p2sf_explorer.store.store import Store

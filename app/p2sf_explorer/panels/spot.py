@@ -5,7 +5,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QResizeEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from p2sf.metrics.spot import Spot
+from p2sf.figures.spot import Spot
 from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.painting import polygon
 from p2sf_explorer.charts.reading import Reading, closest, point_reading

@@ -184,7 +184,7 @@ class ExactnessPanel(QFrame):
 
         Until they are measured at this point they are those of the lens in the complete trade.
         """
-        from p2sf.metrics.bounds import mtf_error
+        from p2sf.figures.bounds import mtf_error
         from p2sf_explorer.compute.method_bounds import within
         from p2sf_explorer.compute.trade import typical_costs
 
@@ -237,7 +237,7 @@ class ExactnessPanel(QFrame):
             self.typical.setText(tr(words, method=same[0].family, **known))
 
     def _values(self) -> dict[str, str]:
-        from p2sf.metrics.bounds import mtf_error, r80_sensitivity
+        from p2sf.figures.bounds import mtf_error, r80_sensitivity
 
         error = self.one_less_r2()
         measure = self._measure()

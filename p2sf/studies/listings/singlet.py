@@ -16,9 +16,9 @@ from p2sf.disc.zernike_terms import zernike_terms, zernike_values
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface, with_sensor
 from p2sf.lens.source import Source
-from p2sf.metrics.measures import mtf_of, parts_of
 from p2sf.paraxial.first_order import abcd, cardinal_points
 from p2sf.paraxial.pupils import f_number, numerical_aperture, paraxial_rays, pupils
+from p2sf.psf.measures import mtf_of, parts_of
 from p2sf.pupil.zernike_fit import decompose
 from p2sf.raytrace.pencil import (
     displayed_opd,

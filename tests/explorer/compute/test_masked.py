@@ -7,8 +7,8 @@ import pytest
 
 from p2sf.disc.mask import PupilMask
 from p2sf.errors import P2SFError
+from p2sf.figures.compare import r_squared
 from p2sf.paraxial.wavefront import wavefront
-from p2sf.psf.compare import r_squared
 from p2sf.psf.geometric import geometric_psf
 from p2sf.pupil.seen_mask import mask_seen
 from p2sf.pupil.wavefront_map import disc

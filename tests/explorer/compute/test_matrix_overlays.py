@@ -7,11 +7,11 @@ import pytest
 
 import p2sf
 from p2sf.conventions import degrees_from_slope, slope_from_degrees
+from p2sf.figures.perfect import circle_contrast
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.lens.transmission import Transmission
 from p2sf.lensfile.toml.lens import lens_to_toml
-from p2sf.metrics.perfect import circle_contrast
 from p2sf.paraxial.pupils import pupils
 from p2sf.paraxial.seidel import coefficients
 from p2sf.raytrace.pencil import pencil

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import p2sf
+from p2sf.figures.compare import r_squared
 from p2sf.figures.window import radius_of_energy
-from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import PsfOptions, render
 from p2sf_explorer.compute.framing import light_rings

@@ -2,7 +2,7 @@
 
 import pytest
 
-from p2sf.psf.compare import r_squared
+from p2sf.figures.compare import r_squared
 from p2sf.psf.fitted import psf_of_fit
 from p2sf.psf.methods import render
 from p2sf.pupil.fit import fit

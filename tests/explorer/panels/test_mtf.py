@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.special import j0, j1
 
-from p2sf.metrics.measures import mtf_of
-from p2sf.metrics.perfect import diffraction_mtf
+from p2sf.figures.perfect import diffraction_mtf
+from p2sf.psf.measures import mtf_of
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.measured import MeasureRequest, measure_request, measured_parts
 from p2sf_explorer.compute.views.mtf import contrast

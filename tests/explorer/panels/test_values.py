@@ -17,10 +17,10 @@ from p2sf import encircled_energy, mtf
 from p2sf.conventions import slope_from_degrees
 from p2sf.disc.quadrature import disc_nodes
 from p2sf.disc.zernike_terms import zernike_terms, zernike_values
+from p2sf.figures.fans import opd_fan, ray_fan
+from p2sf.figures.perfect import airy_radius_um
+from p2sf.figures.spot import spot
 from p2sf.lens.source import Source
-from p2sf.metrics.fans import opd_fan, ray_fan
-from p2sf.metrics.perfect import airy_radius_um
-from p2sf.metrics.spot import spot
 from p2sf.paraxial.pupils import paraxial_rays
 from p2sf.paraxial.seidel import chromatic_sums, coefficients, seidel_sums
 from p2sf.paraxial.wavefront import wavefront

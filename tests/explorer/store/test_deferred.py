@@ -9,10 +9,10 @@ import pytest
 from PySide6.QtWidgets import QApplication
 
 from p2sf.errors import Cancelled, GeometryError
+from p2sf.figures.compare import r_squared
 from p2sf.lensfile.library import shipped_lenses
 from p2sf.messages import Message
 from p2sf.psf import methods
-from p2sf.psf.compare import r_squared
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import METHODS, PsfRequest
 from p2sf_explorer.compute.deferred_sums import AT_ONCE_SECONDS, KEPT, SumCache

@@ -4,7 +4,7 @@ The pupil is sampled by Gauss–Legendre in ρ² times even angles over the disc
 paraxial entrance pupil, as the lens's ``aim`` says. What rays carry is a polynomial in ρ² for every harmonic of the
 angle, so that denser nodes need no more rays; other rays say how good that is. Every ray stands for the light that
 enters by its share of the pupil: the Jacobian of the entrance pupil over the nodes. Energy is that of the field on
-circles, by a non-uniform FFT in double precision (`tests/metrics/test_energy.py` holds it against plain sums on the
+circles, by a non-uniform FFT in double precision (`tests/figures/test_energy.py` holds it against plain sums on the
 axis). The MTF is that of `tests.support.pupil_sums`, whose error falls with the square of the number of cells, and is
 extrapolated from two.
 """

@@ -8,14 +8,14 @@ import numpy as np
 from p2sf.colour.spectrum import spectrum_of
 from p2sf.conventions import NM_PER_UM, UM_PER_MM, degrees_from_slope, slope_from_degrees, vergence
 from p2sf.errors import P2SFError
+from p2sf.figures.perfect import airy_radius_um
 from p2sf.lens.lens import Lens, lens_range_um
 from p2sf.lens.source import Source
 from p2sf.messages import Message, Number
-from p2sf.metrics.measures import COLOURS, PupilPart, mtf_of
-from p2sf.metrics.perfect import airy_radius_um
 from p2sf.paraxial.pupils import pupils
 from p2sf.pixel_kernels.illumination import light_passed, relative_illumination
 from p2sf.pixel_kernels.sensor_points import sensor_map
+from p2sf.psf.measures import COLOURS, PupilPart, mtf_of
 from p2sf.psf.polychromatic import bands_through, chief_shifts_um
 from p2sf.raytrace.field_curves import heights
 from p2sf_explorer.compute.live import Live, View

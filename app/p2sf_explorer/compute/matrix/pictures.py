@@ -9,16 +9,16 @@ import numpy as np
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import GeometryError, P2SFError
+from p2sf.figures.fans import Fan, opd_fan, ray_fan
+from p2sf.figures.perfect import airy_radius_um
+from p2sf.figures.spot import Spot
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message, Number
-from p2sf.metrics.fans import Fan, opd_fan, ray_fan
-from p2sf.metrics.measures import energy_in
-from p2sf.metrics.perfect import airy_radius_um
-from p2sf.metrics.spot import Spot
 from p2sf.paraxial.seidel import check_seidel
 from p2sf.psf.cost import nodes_beyond
 from p2sf.psf.geometric import geometric_psf
+from p2sf.psf.measures import energy_in
 from p2sf.psf.methods import SEIDEL, psf_of
 from p2sf.psf.result import Psf
 from p2sf.raytrace.aiming import Sources

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from p2sf.messages import Message
-from p2sf.metrics.measures import mtf_of
+from p2sf.psf.measures import mtf_of
 from p2sf.threads import never
 from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.measured import MeasureRequest, measure_request, measured_parts, mtf_is_live

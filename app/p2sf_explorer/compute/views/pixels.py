@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from p2sf.metrics.perfect import airy_curves
+from p2sf.figures.perfect import airy_curves
 from p2sf.psf.result import Psf
 from p2sf_explorer.compute.live import Live, View
 

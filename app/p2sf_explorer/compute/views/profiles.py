@@ -7,11 +7,11 @@ from math import prod
 import numpy as np
 
 from p2sf.errors import P2SFError
+from p2sf.figures.perfect import airy_curves
 from p2sf.messages import Message
-from p2sf.metrics.measures import energy_in
-from p2sf.metrics.perfect import airy_curves
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.psf.fitted import fit, fitted_waves
+from p2sf.psf.measures import energy_in
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel_stack import as_fit
 from p2sf.pupil.plane_waves import counts_for

@@ -5,11 +5,11 @@ from typing import SupportsFloat
 import numpy as np
 
 from p2sf.errors import P2SFError
+from p2sf.figures.fans import Fan, opd_fan, ray_fan
+from p2sf.figures.spot import DRAWN_RINGS, Spot, spot
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message, Number
-from p2sf.metrics.fans import Fan, opd_fan, ray_fan
-from p2sf.metrics.spot import DRAWN_RINGS, Spot, spot
 from p2sf.raytrace.aiming import Sources
 from p2sf_explorer.compute.layout import Layout
 from p2sf_explorer.compute.live import Live, View

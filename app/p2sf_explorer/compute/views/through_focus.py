@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from p2sf.errors import P2SFError
-from p2sf.metrics.perfect import airy_radius_um
+from p2sf.figures.perfect import airy_radius_um
 from p2sf.paraxial.balance import depth_of_focus_um
 from p2sf.psf.geometric import over_unaberrated
 from p2sf.pupil.seen_mask import mask_seen

@@ -9,11 +9,11 @@ from scipy.special import j1
 from p2sf.conventions import centred_axis
 from p2sf.disc.mask import PupilMask
 from p2sf.errors import SamplingError
+from p2sf.figures.compare import r_squared
+from p2sf.figures.tails import tail_error
 from p2sf.lens.lens import with_f_number, with_mask
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.metrics.tails import tail_error
-from p2sf.psf.compare import r_squared
 from p2sf.psf.methods import render
 from p2sf.psf.result import Psf
 

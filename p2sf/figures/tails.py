@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from p2sf.errors import SamplingError
-from p2sf.psf.result import Psf
+from p2sf.figures.psf_data import PsfData
 
 FAINTEST = 1e-6  # of the peak: where the azimuthal mean is fainter nothing is asked
 FARTHEST = 200.0  # Airy radii; a clear disc reaches 28, spikes and blurs farther
@@ -21,14 +21,14 @@ class TailError:
     radius_um: float
 
 
-def azimuthal_mean(psf: Psf, width_um: float) -> tuple[np.ndarray, np.ndarray]:
+def azimuthal_mean(psf: PsfData, width_um: float) -> tuple[np.ndarray, np.ndarray]:
     """Return the mean of samples in rings about the chief ray, and how many each has, (rings,)."""
     ring = (np.hypot(psf.x_um, psf.y_um[:, None]) / width_um).astype(int).ravel()
     count = np.bincount(ring)
     return np.bincount(ring, psf.values.ravel()) / np.maximum(count, 1), count
 
 
-def tail_error(found: Psf, reference: Psf, airy_um: float) -> TailError:
+def tail_error(found: PsfData, reference: PsfData, airy_um: float) -> TailError:
     """Return the errors of a PSF's tails wherever the reference's mean is FAINTEST of its peak within FARTHEST.
 
     ``airy_um``: the radius of the first dark ring, by which distances count. Raises SamplingError for two windows.

@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from p2sf.figures.bounds import mtf_error, r80_sensitivity
+from p2sf.figures.compare import r_squared
 from p2sf.lens.lens import with_f_number
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.metrics.bounds import mtf_error, r80_sensitivity
-from p2sf.psf.compare import r_squared
 from p2sf.psf.methods import render
 
 LENS = with_f_number(find_lens("double_gauss_28"), 8.0)

@@ -5,9 +5,8 @@ import pytest
 
 from p2sf.conventions import centred_axis
 from p2sf.errors import SamplingError
+from p2sf.figures.compare import compare, r_squared, relative_l2
 from p2sf.figures.psf_data import PsfFigures
-from p2sf.metrics.compare import compare
-from p2sf.psf.compare import r_squared, relative_l2
 from p2sf.psf.gaussian_fit import gaussian, gaussian_psf
 from p2sf.psf.result import Psf
 from tests.support.reference import huygens_rows

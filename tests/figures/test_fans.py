@@ -5,10 +5,10 @@ import pytest
 
 from p2sf.disc.mask import PupilMask
 from p2sf.errors import GeometryError
+from p2sf.figures.fans import opd_fan, ray_fan
 from p2sf.lens.lens import with_mask
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.metrics.fans import opd_fan, ray_fan
 
 LENS, SOURCE = find_lens("double_gauss_28"), Source(field_deg=5)
 

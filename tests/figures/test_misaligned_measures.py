@@ -10,18 +10,18 @@ from p2sf.colour.colorimetry import bands
 from p2sf.colour.spectrum import spectrum_of
 from p2sf.disc.domain import WHOLE
 from p2sf.disc.mask import PupilMask
+from p2sf.figures.energy import landing_energy
+from p2sf.figures.frequency_pupil import uniform_disc
+from p2sf.figures.perfect import circle_contrast
+from p2sf.figures.transfer import otf_slices
 from p2sf.glass.media import MIRROR
 from p2sf.lens.lens import Surface, with_f_number, with_mask
 from p2sf.lens.misalignment import displaced, folding
 from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.metrics.energy import landing_energy
-from p2sf.metrics.frequency_pupil import uniform_disc
-from p2sf.metrics.measures import PupilPart, energy_in, mtf_of, parts_of, spread_of
-from p2sf.metrics.perfect import circle_contrast
-from p2sf.metrics.transfer import otf_slices
 from p2sf.psf.huygens import huygens_psf
+from p2sf.psf.measures import PupilPart, energy_in, mtf_of, parts_of, spread_of
 from p2sf.psf.polychromatic import chief_places_um, colour_psf, suitable_pitch_um
 from tests.support.airy import circle_energy
 

@@ -19,12 +19,8 @@ from p2sf.colour.spectrum import Spectrum
 from p2sf.conventions import UM_PER_MM
 from p2sf.disc.mask import CLEAR
 from p2sf.errors import GeometryError, RequestError
-from p2sf.figures.measures import PARTS, Energy, LineSpread, Mtf
-from p2sf.lens.lens import Lens
-from p2sf.lens.source import Source
-from p2sf.messages import Alternatives
-from p2sf.metrics.energy import EncircledLight, LandingPoints, energy_of, radius_of
-from p2sf.metrics.frequency_pupil import (
+from p2sf.figures.energy import EncircledLight, LandingPoints, energy_of, radius_of
+from p2sf.figures.frequency_pupil import (
     WHOLE_PUPIL,
     FrequencyPupil,
     PupilAtRims,
@@ -35,6 +31,10 @@ from p2sf.metrics.frequency_pupil import (
     rotate_frequencies,
     with_spot,
 )
+from p2sf.figures.measures import PARTS, Energy, LineSpread, Mtf
+from p2sf.lens.lens import Lens
+from p2sf.lens.source import Source
+from p2sf.messages import Alternatives
 from p2sf.paraxial.seidel import Coefficients, check_seidel, coefficients
 from p2sf.psf.methods import AUTO, choose, seidel_error
 from p2sf.psf.prediction import SAFETY
@@ -45,7 +45,7 @@ from p2sf.raytrace.exit_sphere import exit_sphere
 from p2sf.threads import never, one_blas_thread
 
 if TYPE_CHECKING:
-    from p2sf.metrics.transfer import OtfSlice
+    from p2sf.figures.transfer import OtfSlice
 
 FREQUENCIES = 257
 COLOURS = 21  # wavelengths of a continuous spectrum, as the colour PSF has them
@@ -201,7 +201,7 @@ def mtf_of(
     ``turn_deg``: that of the parts, to be told with the curves.
     ``cancelled`` is polled now and then and ends the work with `Cancelled`.
     """
-    from p2sf.metrics.transfer import otf_slices
+    from p2sf.figures.transfer import otf_slices
 
     slices = [otf_slices(part.pupil, cancelled) for part in parts]
     if frequency_per_mm is None:
@@ -282,7 +282,7 @@ def _common_table(parts: Parts, found: Found) -> tuple[np.ndarray, np.ndarray]:
 @one_blas_thread
 def spread_of(parts: Parts, method: str, position_um: ArrayLike | None = None) -> LineSpread:
     """Return the images of a line and of an edge, by default at POINTS even positions about the centroid."""
-    from p2sf.metrics.transfer import otf_slices, spreads
+    from p2sf.figures.transfer import otf_slices, spreads
 
     slices = [otf_slices(part.pupil) for part in parts]
     most = 1 / (2 * min(one.step for both in slices for one in both))

@@ -16,9 +16,9 @@ from p2sf.errors import P2SFError
 from p2sf.lens.lens import Lens, seen_from
 from p2sf.lens.source import Source
 from p2sf.messages import PLAIN, Message, Style
-from p2sf.metrics.measures import Parts, energy_in, mtf_of, parts_of
 from p2sf.pixel_kernels.illumination import relative_illumination
 from p2sf.pixel_kernels.sensor_points import landing_mm, sensor_map, slope_ratio
+from p2sf.psf.measures import Parts, energy_in, mtf_of, parts_of
 from p2sf.psf.methods import PsfOptions, render, whole_pixel_um
 from p2sf.pupil.zernike_fit import zernike_fit
 from p2sf.raytrace.aiming import Sources
@@ -79,7 +79,7 @@ def performance_of(
 ) -> Performance:
     """Return the figures of a source before a lens as it is set.
 
-    ``parts`` returns its pupil by exact rays, where that may be known already (`p2sf.metrics.measures.parts_of`).
+    ``parts`` returns its pupil by exact rays, where that may be known already (`p2sf.psf.measures.parts_of`).
     """
     frequency = np.atleast_1d(np.asarray(frequency_per_mm, float))
     collected = _Collected()

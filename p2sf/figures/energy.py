@@ -22,9 +22,9 @@ from p2sf.disc.domain import PupilDomain
 from p2sf.disc.phasors import cosine_sine
 from p2sf.disc.quadrature import MOST_KEPT, even_count, gauss_legendre
 from p2sf.errors import SamplingError
-from p2sf.metrics.frequency_pupil import FrequencyPupil, landing_um, reach_of
-from p2sf.metrics.mask_edges import box_edges, slope_waves
-from p2sf.metrics.transfer import columns_of
+from p2sf.figures.frequency_pupil import FrequencyPupil, landing_um, reach_of
+from p2sf.figures.mask_edges import box_edges, slope_waves
+from p2sf.figures.transfer import columns_of
 
 RADII = 128  # of a tabulated curve
 BEYOND = 6.0  # λ/NA beyond the outermost ray up to which light is summed; farther out there are the wings of an edge
@@ -164,7 +164,7 @@ def landing_energy(
 
     The counts of nodes, circles and directions are less than the harmonics of |field|² would need: those at which
     opposite edges of the pupil interfere are there only where rays of both land. Sums of all give the same to 2e-5
-    (`tests/metrics/test_energy.py`).
+    (`tests/figures/test_energy.py`).
     """
     half = max(pupil.half_x, pupil.half_y)
     blur = blur_waves(pupil, centre_um, aside_um)

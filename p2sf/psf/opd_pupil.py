@@ -17,11 +17,11 @@ from p2sf.disc.domain import WHOLE, ClearNodes
 from p2sf.disc.quadrature import cell_areas, even_count
 from p2sf.disc.zernike_terms import ZernikeOrder, zernike_terms, zernike_values
 from p2sf.errors import RequestError, SamplingError
+from p2sf.figures.energy import EncircledLight, circles_of, energy_on_circles, radius_of
+from p2sf.figures.line_sums import LagSums
 from p2sf.figures.measures import PARTS, Energy, LineSpread, Mtf
-from p2sf.metrics.energy import EncircledLight, circles_of, energy_on_circles, radius_of
-from p2sf.metrics.line_sums import LagSums
-from p2sf.metrics.perfect import circle_contrast
-from p2sf.metrics.transfer import OtfSlice, spreads
+from p2sf.figures.perfect import circle_contrast
+from p2sf.figures.transfer import OtfSlice, spreads
 from p2sf.parameters import check_positive
 from p2sf.psf.from_opd import centres, psf_of_opd, pupil_of_cells
 from p2sf.psf.result import Psf

@@ -8,7 +8,7 @@ from math import inf, pi, sqrt
 
 import numpy as np
 
-from p2sf.psf.result import Psf
+from p2sf.figures.psf_data import PsfData
 
 ENERGY = 0.8
 
@@ -21,7 +21,7 @@ def mtf_error(one_less_r2: float) -> float:
     return sqrt(one_less_r2)
 
 
-def r80_sensitivity(psf: Psf) -> float:
+def r80_sensitivity(psf: PsfData) -> float:
     """Return c of |ΔR80|/R80 ≤ c·√ε for a PSF about its centroid; inf where its window holds no R80.
 
     |ΔE(R)| ≤ √(pixels within R)·‖p − q‖ (Cauchy and Schwarz), and ΔR80 = ΔE/(dE/dR) for small ones.

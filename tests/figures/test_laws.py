@@ -12,8 +12,8 @@ from p2sf.figures.measures import Energy, Mtf
 from p2sf.lens.lens import Lens, with_aim, with_f_number, with_sensor
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens, shipped_lenses
-from p2sf.metrics.measures import energy_in, mtf_of, parts_of
 from p2sf.paraxial.first_order import image_distance
+from p2sf.psf.measures import energy_in, mtf_of, parts_of
 from tests.support.lenses.random_lenses import between, lenses, slopes, wavelengths
 
 # Shrinking a lens would take minutes, and its numbers say nothing that the first failure does not.

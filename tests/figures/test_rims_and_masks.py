@@ -12,7 +12,7 @@ from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.metrics.measures import energy_in, mtf_of, parts_of, spread_of
+from p2sf.psf.measures import energy_in, mtf_of, parts_of, spread_of
 from tests.support.grid_sums import GridSums
 from tests.support.tiers import in_tiers
 

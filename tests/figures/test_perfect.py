@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.special import j0, j1
 
-from p2sf.metrics.perfect import airy_curves, bessel_0_and_1
+from p2sf.figures.perfect import airy_curves, bessel_0_and_1
 
 
 def bessel(order: int, v: np.ndarray) -> np.ndarray:

@@ -1,1 +1,0 @@
-"""Quality measures of a PSF: transfer function, line and edge spread, encircled energy; from pupil or window."""
