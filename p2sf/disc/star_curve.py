@@ -8,11 +8,11 @@ not cancel, of which nodes in ρ² miss 1e-5 where these miss 1e-11.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 from math import pi
 
 import numpy as np
-from numpy.polynomial.chebyshev import chebval
 
 from p2sf.disc.clear_radius import Clearance, clear_radius
 from p2sf.disc.domain import WHOLE, ClearNodes, Piece, PupilDomain
@@ -25,6 +25,7 @@ FEWEST_PER_ARC = 6
 ALONG = 193  # points of a line of two radii at which crossings are sought
 DRAWN = 512  # of half a curve
 SECTIONS = 16  # of the interval of a corner in one step: so few rays cost no more than one
+ROUNDING = 1e-12  # of a series
 GAUSS_EXCESS = 1.5  # Gauss–Legendre nodes per uniform direction for the same harmonics: some π/2
 
 
@@ -46,11 +47,23 @@ class StarCurve:
         first = self.corners[0]
         angle = np.mod(theta - first, 2 * pi)
         angle = first + np.minimum(angle, 2 * self.domain.turn - angle)
-        which, radius = np.searchsorted(self.corners[1:-1], angle), np.empty(np.shape(angle))
-        for number, ((low, high), series) in enumerate(zip(pairwise(self.corners), self.arcs, strict=True)):
-            some = which == number
-            radius[some] = chebval((2 * angle[some] - low - high) / (high - low), series)
+        which = np.searchsorted(self.corners[1:-1], angle)
+        low, high = np.array(self.corners[:-1])[which], np.array(self.corners[1:])[which]
+        twice = 2 * (2 * angle - low - high) / (high - low)
+        after, value = np.zeros_like(twice), np.zeros_like(twice)
+        for terms in self._terms[:0:-1]:  # Clenshaw 1955
+            after, value = value, twice * value - after + terms[which]
+        radius: np.ndarray = twice / 2 * value - after + self._terms[0][which]
         return radius
+
+    @cached_property
+    def _terms(self) -> np.ndarray:
+        """Return the series of all arcs without terms that are rounding, (terms, arcs)."""
+        count = max(int(np.flatnonzero(np.abs(series) > ROUNDING).max()) for series in self.arcs) + 1
+        terms = np.zeros((max(count, *map(len, self.arcs)), len(self.arcs)))
+        for number, series in enumerate(self.arcs):
+            terms[: series.size, number] = series
+        return terms[:count]
 
     def beyond(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
         """Return how far points of any shape lie beyond the curve, seen from its middle; negative inside."""

@@ -26,25 +26,29 @@ def whole_nodes(counts: tuple[int, int]) -> ClearNodes:
 
 
 @lru_cache(maxsize=16)
-def open_part(lens: Lens, source: Source, clip: bool = False, whole: bool = False) -> OpenPart:
-    """Return what mask, rims, holes and lost rays leave open of the disc.
+def clear_part(lens: Lens, source: Source, clip: bool = False, whole: bool = False) -> OpenPart:
+    """Return what rims, holes and lost rays leave of the disc, without the mask.
 
     ``clip``: end the pupil at rims and holes. ``whole``: every ray of the disc is known to reach the sensor. Raises
     GeometryError where no part is clear.
     """
     if whole and not clip:
-        part = OpenPart(domain=lens.pupil_domain)
-    else:
-        shadows = hole_curves(lens, source) if clip else ()
-        part = OpenPart(clear_curve(lens, source, clip), shadows, domain=lens.pupil_domain)
-    return part.behind(mask_seen(lens, source))
+        return OpenPart(domain=lens.pupil_domain)
+    shadows = hole_curves(lens, source) if clip else ()
+    return OpenPart(clear_curve(lens, source, clip), shadows, domain=lens.pupil_domain)
+
+
+@lru_cache(maxsize=16)
+def open_part(lens: Lens, source: Source, clip: bool = False, whole: bool = False) -> OpenPart:
+    """Return what the mask leaves open of the `clear_part`."""
+    return clear_part(lens, source, clip, whole).behind(mask_seen(lens, source))
 
 
 def pupil_nodes(
     lens: Lens, source: Source, counts: tuple[int, int], clip: bool = False, whole: bool = True
 ) -> ClearNodes:
     """Return nodes over the `open_part`, about as dense as ``counts`` are over the disc."""
-    return open_part(lens, source, clip, whole).nodes(counts)
+    return open_part(lens, source, clip, whole and not clip).nodes(counts)
 
 
 def clear_nodes(lens: Lens, source: Source, counts: tuple[int, int], clip: bool = True) -> ClearNodes:
