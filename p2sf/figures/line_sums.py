@@ -145,11 +145,13 @@ class _Samples:
         first = size - 1 - behind
         count = last - first + 1
         start = np.cumsum(count) - count
-        self._place = np.arange(count.sum()) - np.repeat(start, count)
-        self._at = self._place + np.repeat(line * size + first, count)
+        number = np.arange(count.sum())
+        self._place = number - np.repeat(start, count)
+        self._at = number + np.repeat(line * size + first - start, count)
         # If the ends are closer than the samples they affect, even weights have the sum of the interval's length.
         even = np.where(count < 2 * END, np.sqrt((high - low) / count), 1.0)
-        self._upper, self._lower = np.repeat(even, count), np.repeat(even, count)
+        self._upper = np.repeat(even, count)
+        self._lower = self._upper.copy()
         some = np.flatnonzero(count >= 2 * END)
         self._upper[(start + count - 1)[some] - ENDS] = top[:, some]
         self._lower[start[some] + ENDS] = bottom[:, some]

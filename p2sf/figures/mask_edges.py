@@ -1,5 +1,6 @@
 """A mask over spatial frequency: its edges, curves over the stop, and the slope of its phase (handbook 6.3)."""
 
+from functools import lru_cache
 from math import hypot
 
 import numpy as np
@@ -14,6 +15,7 @@ NEWTON_LEAST = 1e-5  # and above which contrast is less accurate than the handbo
 FARTHEST = 1.05  # in the box's coordinates: farther out its polynomials are of no use
 
 
+@lru_cache(maxsize=4)  # contrast and energy of one pupil share them, a quarter of the time of either behind vanes
 def box_edges(pupil: FrequencyPupil) -> tuple[list[np.ndarray], list[np.ndarray]]:
     """Return the closed curves in the box, (2, points), whose insides are open, and those whose insides are dark."""
     inner, dark = pupil.edges.behind(pupil.mask).edges()
