@@ -5,9 +5,9 @@ product with a fixed matrix. What rims, lost rays and the mask in the stop leave
 picture, RMS and the shares of the variance are read off there.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 
@@ -15,20 +15,18 @@ from p2sf.conventions import write_protect
 from p2sf.disc.basis import Terms
 from p2sf.disc.domain import HALF, WHOLE, ClearNodes, PupilDomain
 from p2sf.disc.mask import PupilMask
-from p2sf.disc.mask_cells import inside_share, open_share
 from p2sf.disc.mask_nodes import mask_nodes
 from p2sf.disc.mask_outline import obstructions, opening
-from p2sf.disc.star_curve import StarCurve
+from p2sf.disc.open_part import OpenPart
 from p2sf.disc.tilt import rms
 from p2sf.disc.zernike import powers
 from p2sf.disc.zernike_terms import family, zernike_terms, zernike_values
-from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import wavefront
-from p2sf.pupil.clear_curves import CLIPPED, LOST, clear_curve, holes_of
 from p2sf.pupil.seen_mask import mask_seen
+from p2sf.pupil.vignetting import clear_part
 from p2sf.pupil.zernike_fit import USUAL_TERMS
 from p2sf.raytrace.pencil import displayed_opd, exit_radius, opd_on_sphere, pencil
 
@@ -36,12 +34,11 @@ SAMPLES = {"preview": 128, "settled": 384}  # across the picture; an enlarged pa
 ORDERS = {"preview": 8, "settled": 18}  # of the fit
 RAYS = {"preview": (7, 20), "settled": (16, 44)}  # radii and directions: exact for products of two terms of that order
 RIM_COUNTS = {"preview": (7, 32), "settled": (12, 72)}  # radii and directions over a clipped pupil
-CELLS = {"preview": 40, "settled": 96}  # across a pupil that ends at rims and behind a mask
-TRACED_CELLS = {"preview": 64, "settled": 192}  # across one with holes
 TURN = np.linspace(0, 2 * np.pi, 241)
 CIRCLE = np.stack([np.sin(TURN), np.cos(TURN)])
 RIM_RAYS = 5  # every so many points of that circle are traced
 EDGE_STEP = 1e-9
+LINES_PER_RADIUS = 4  # of nodes of positive weights, between corners and ends of edges
 RIM_POINTS = 128  # on half a clipped rim as drawn
 ON_EDGE = 1e-9  # beyond an edge, and still on it
 
@@ -71,36 +68,6 @@ class WavefrontMap:
 
 
 @dataclass(frozen=True, eq=False)
-class PassingCells:
-    """Which cells of a grid over the pupil let rays pass, (count, count): a clear part of any shape."""
-
-    passed: np.ndarray
-
-    def beyond(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
-        """Return −1 at points in cells that let rays pass, and 1 elsewhere."""
-        count = len(self.passed)
-        row, column = (np.clip(((at + 1) * count / 2).astype(np.intp), 0, count - 1) for at in (eta, xi))
-        return np.where(self.passed[row, column], -1.0, 1.0)
-
-    def nodes(self, counts: tuple[int, int]) -> ClearNodes:
-        """Return the middles of these cells, whatever the ``counts`` of other parts."""
-        xi, eta, inside = disc(len(self.passed))
-        even = np.full(int(self.passed.sum()), 1 / self.passed.sum())
-        return ClearNodes(xi[self.passed], eta[self.passed], even, float(even.size / inside.sum()), domain=WHOLE)
-
-
-Clear = StarCurve | PassingCells
-
-
-def _outline(clear: Clear) -> np.ndarray:
-    """Return ξ and η around the clear part, closed; of cells, which have steps, the pupil's own rim."""
-    if isinstance(clear, PassingCells):
-        return CIRCLE
-    xi, eta = clear.points(RIM_POINTS, WHOLE)
-    return np.stack([np.append(xi, xi[:1]), np.append(eta, eta[:1])])
-
-
-@dataclass(frozen=True, eq=False)
 class WavefrontSamples:
     """Nodes over the part of the pupil where rays arrive, W there in waves, and that part where it is not the disc.
 
@@ -110,7 +77,7 @@ class WavefrontSamples:
     nodes: ClearNodes
     waves: np.ndarray
     domain: PupilDomain
-    clear: Clear | None = None
+    clear: OpenPart | None = None
 
 
 @lru_cache(maxsize=8)
@@ -208,9 +175,8 @@ def samples_of_rays(lens: Lens, source: Source, quality: str, clip: bool = False
     waves = opd_on_sphere(rays, exit_radius(lens, source, rays))
     if np.isfinite(waves).all() and not (clip and _clipped(lens, source, nodes)):
         return WavefrontSamples(nodes, waves, lens.pupil_domain)
-    holed = clip and holes_of(lens)
-    clear = _passing(lens, source, quality) if holed else clear_curve(lens, source, clip)
-    nodes = clear.nodes(RIM_COUNTS[quality])
+    clear = clear_part(lens, source, clip)
+    nodes = _positive_nodes(clear, RIM_COUNTS[quality])
     return WavefrontSamples(nodes, displayed_opd(lens, source, nodes.xi, nodes.eta), lens.pupil_domain, clear)
 
 
@@ -226,14 +192,11 @@ def _clipped(lens: Lens, source: Source, nodes: ClearNodes) -> bool:
     return not pencil(lens, source, np.append(nodes.xi, rim[0]), np.append(nodes.eta, rim[1]), clip=True).passed.all()
 
 
-def _passing(lens: Lens, source: Source, quality: str) -> PassingCells:
-    """Return the cells of the pupil that rims and holes let pass."""
-    xi, eta, inside = disc(TRACED_CELLS[quality])
-    passed = np.zeros(inside.shape, bool)
-    passed[inside] = pencil(lens, source, xi[inside], eta[inside], clip=True).passed
-    if not passed.any():
-        raise GeometryError(CLIPPED, parameter="clip")
-    return PassingCells(passed)
+def _positive_nodes(part: OpenPart, counts: tuple[int, int]) -> ClearNodes:
+    """Return nodes over what is open with positive weights, as a decomposition needs them."""
+    if part.mask.clear and part.rim is not None and not part.shadows:
+        return part.rim.nodes(counts)
+    return part.line_nodes(LINES_PER_RADIUS * counts[0], 2 * counts[0])
 
 
 def map_of(
@@ -249,7 +212,7 @@ def map_of_terms(
     source: Source,
     known: MapTerms,
     found: np.ndarray,
-    clear: Clear | None = None,
+    clear: OpenPart | None = None,
     kind: str = "exact rays",
 ) -> WavefrontMap:
     """Return the map of a wavefront of the lens, ``found`` of the terms ``known``, behind the mask in its stop."""
@@ -260,20 +223,18 @@ def map_of_terms(
     highest = np.max(shown, initial=at_edges.max(initial=-np.inf), where=part.open)
     lowest = np.min(shown, initial=at_edges.min(initial=np.inf), where=part.open)
     shown[part.beyond] = np.nan
-    waves = part.root * part.at_parts.waves(found, per_um)
-    amounts = part.columns.T @ waves
+    waves, weight = part.at_nodes.waves(found, per_um), part.nodes.weight
+    amounts = part.columns.T @ (weight * waves)
     left = waves - part.columns @ amounts
     parts = families((n, m, square) for (n, m), square in zip(part.degrees, (amounts**2).tolist(), strict=True))
-    rest = float(left @ left)
+    rest = max(float(weight @ left**2), 0.0)  # of weights that may be negative
     blur = float(np.sqrt(sum(parts.values()) + rest))  # the terms are orthogonal
-    if part.at_nodes:
-        blur = rms(part.at_nodes.waves(found, per_um), part.nodes.weight, part.nodes.axes)
     return WavefrontMap(
         shown,
         blur,
         float(highest - lowest),
         kind,
-        outline=CIRCLE if clear is None else _outline(clear),
+        outline=_outline(clear),
         clear=part.nodes.share,
         parts=parts,
         rest=rest,
@@ -310,16 +271,13 @@ class TermsAt:
 class MapPart:
     """What rims and mask leave open of the pupil, for maps: all that no wavefront and no wavelength changes.
 
-    The terms and the path from the chief ray's, µm, at the open sides of edges, at nodes of positive weights, over
-    which ``columns`` (nodes, terms) times the roots of weights are orthogonal, of ``degrees`` (n, m), and at ``nodes``
-    where these are others, as behind vanes.
+    The terms and the path from the chief ray's, µm, at the open sides of edges, and at ``nodes``, over which
+    ``columns`` (nodes, terms) of ``degrees`` (n, m) are orthonormal.
     """
 
     nodes: ClearNodes
-    at_nodes: TermsAt | None
+    at_nodes: TermsAt
     at_edges: TermsAt
-    at_parts: TermsAt
-    root: np.ndarray
     columns: np.ndarray
     degrees: list[tuple[int, int]]
     path_um: np.ndarray | float
@@ -335,11 +293,10 @@ def _whole_part(mask: PupilMask, known: MapTerms) -> MapPart:
     return _open_part(mask, known, None)
 
 
-def _open_part(mask: PupilMask, known: MapTerms, clear: Clear | None) -> MapPart:
+def _open_part(mask: PupilMask, known: MapTerms, clear: OpenPart | None) -> MapPart:
     """Return what a mask and the clear part leave open. Raises GeometryError where that is nothing.
 
-    Zernike's terms are made orthogonal over it (`p2sf.pupil.zernike_fit`), vanes set aside: the nodes then have
-    positive weights, as the decomposition needs.
+    Zernike's terms are made orthogonal over it (`p2sf.pupil.zernike_fit`).
     """
 
     def path_um(xi: np.ndarray, eta: np.ndarray) -> np.ndarray | float:
@@ -349,20 +306,17 @@ def _open_part(mask: PupilMask, known: MapTerms, clear: Clear | None) -> MapPart
         return TermsAt(known.at(xi, eta), path_um(xi, eta))
 
     nodes, parts = _figure_nodes(mask, known, clear)
-    root = np.sqrt(parts.weight)
     if mask.clear and clear is None:  # where they are orthogonal as they are
-        degrees, values = known.degrees, known.at(parts.xi, parts.eta)
+        degrees, terms = known.degrees, known.at
     else:
-        used = tuple(term for term in zernike_terms("noll", USUAL_TERMS) if term.odd in parts.domain.parities(False))
-        degrees, values = [(term.n, term.m) for term in used], zernike_values(used, parts.xi, parts.eta)
+        used = tuple(term for term in zernike_terms("noll", USUAL_TERMS) if term.odd in nodes.domain.parities(False))
+        degrees, terms = [(term.n, term.m) for term in used], partial(zernike_values, used)
     open_, beyond = _on_samples(mask, clear, SAMPLES[known.quality])
     return MapPart(
         nodes=nodes,
-        at_nodes=None if parts is nodes else at(nodes.xi, nodes.eta),
+        at_nodes=at(nodes.xi, nodes.eta),
         at_edges=at(*_open_edges(mask, clear)),
-        at_parts=at(parts.xi, parts.eta),
-        root=root,
-        columns=np.linalg.qr((values * root).T)[0],
+        columns=_orthonormal(terms, nodes, parts),
         degrees=degrees,
         path_um=path_um(*disc(SAMPLES[known.quality])[:2]),
         open=open_,
@@ -373,32 +327,38 @@ def _open_part(mask: PupilMask, known: MapTerms, clear: Clear | None) -> MapPart
     )
 
 
-def _figure_nodes(mask: PupilMask, known: MapTerms, clear: Clear | None) -> tuple[ClearNodes, ClearNodes]:
-    """Return nodes over what is open, and such of positive weights, vanes set aside where nothing else ends it."""
-    if clear is None and mask.clear:
-        return (known.domain.nodes(RAYS[known.quality]),) * 2
+def _orthonormal(
+    terms: Callable[[np.ndarray, np.ndarray], np.ndarray], nodes: ClearNodes, parts: ClearNodes
+) -> np.ndarray:
+    """Return terms made orthonormal in order over nodes, (nodes, terms).
+
+    First by a QR decomposition over ``parts``, nodes of positive weights over nearly the same; where that is not the
+    same, of what is then nearly orthonormal by Cholesky's of its products.
+    """
+    parts = parts if parts is nodes else nodes.domain.over(parts)
+    columns, lengths = np.linalg.qr((terms(parts.xi, parts.eta) * np.sqrt(parts.weight)).T)
+    if parts is nodes:
+        return np.asarray(columns / np.sqrt(parts.weight)[:, None])
+    known = np.linalg.solve(lengths.T, terms(nodes.xi, nodes.eta))
+    found: np.ndarray = np.linalg.solve(np.linalg.cholesky(known * nodes.weight @ known.T), known)
+    return found.T
+
+
+def _figure_nodes(mask: PupilMask, known: MapTerms, clear: OpenPart | None) -> tuple[ClearNodes, ClearNodes]:
+    """Return nodes over what is open, and such of positive weights, for which vanes are set aside."""
     if clear is None:
+        if mask.clear:
+            return (known.domain.nodes(RAYS[known.quality]),) * 2
         nodes, parts = (mask_nodes(some, *RAYS[known.quality]) for some in (mask, mask.without_vanes))
         over = known.domain.over(nodes)
         return over, over if parts is nodes else known.domain.over(parts)
+    parts = _positive_nodes(clear.behind(mask.without_vanes), RIM_COUNTS[known.quality])
     if mask.clear:
-        return (clear.nodes(RIM_COUNTS[known.quality]),) * 2
-    return (_open_cells(mask, clear, CELLS[known.quality]),) * 2
+        return parts, parts
+    return clear.behind(mask).nodes(RIM_COUNTS[known.quality]), parts
 
 
-def _open_cells(mask: PupilMask, clear: Clear, count: int) -> ClearNodes:
-    """Return the cells of a grid that the clear part and the mask leave open, edge cells by their open share."""
-    xi, eta, _ = disc(count)
-    width = np.full(xi.shape, 2 / count)
-    share = open_share(mask, xi, eta, width) * inside_share(-clear.beyond(xi, eta), width)
-    kept = share > 0
-    if not kept.any():
-        raise GeometryError(LOST)
-    total = float(share.sum())
-    return ClearNodes(xi[kept], eta[kept], share[kept] / total, total * (2 / count) ** 2 / np.pi, domain=WHOLE)
-
-
-def _on_samples(mask: PupilMask, clear: Clear | None, count: int) -> tuple[np.ndarray, np.ndarray]:
+def _on_samples(mask: PupilMask, clear: OpenPart | None, count: int) -> tuple[np.ndarray, np.ndarray]:
     """Return which samples of the square are open, and which more than a pixel away from all that is."""
     xi, eta, _ = disc(count)
     covered, pixel = ~mask.opens(xi, eta), np.sqrt(2) * 2 / count
@@ -406,9 +366,17 @@ def _on_samples(mask: PupilMask, clear: Clear | None, count: int) -> tuple[np.nd
     return (excess <= 0) & ~covered, _all_around(covered) | (excess >= pixel)
 
 
-def _open_edges(mask: PupilMask, clear: Clear | None) -> np.ndarray:
+def _outline(clear: OpenPart | None) -> np.ndarray:
+    """Return ξ and η around the clear part, closed."""
+    if clear is None or clear.rim is None:
+        return CIRCLE
+    xi, eta = clear.rim.points(RIM_POINTS, WHOLE)
+    return np.stack([np.append(xi, xi[:1]), np.append(eta, eta[:1])])
+
+
+def _open_edges(mask: PupilMask, clear: OpenPart | None) -> np.ndarray:
     """Return ξ and η of points on edges, or beside those of a mask, where these are open, (2, points)."""
-    rim = CIRCLE if clear is None else _outline(clear)
+    rim = _outline(clear)
     drawn = [opening(mask), *obstructions(mask)] if mask.edged else []
     beside = np.concatenate([rim, *(edge * part for edge in drawn for part in (1 - EDGE_STEP, 1 + EDGE_STEP))], axis=1)
     beyond = np.hypot(*beside) - 1 if clear is None else clear.beyond(*beside)

@@ -33,5 +33,5 @@ def test_what_a_surface_shadows_counts_nowhere(off, mask):
     assert 0.3 < passed.mean() < 0.9
     xi, eta = xi[passed], eta[passed]
     waves = displayed_opd(lens, POINT, xi, eta)
-    assert found.clear == pytest.approx(xi.size * 4 / 300**2 / np.pi, abs=0.01)
-    assert found.rms == pytest.approx(rms_about_plane(waves, xi, eta), rel=0.02)  # cells of 1/96 by a yes or no
+    assert found.clear == pytest.approx(xi.size * 4 / 300**2 / np.pi, abs=1e-3)
+    assert found.rms == pytest.approx(rms_about_plane(waves, xi, eta), rel=2e-3)  # by the edges of the grid
