@@ -19,7 +19,6 @@ FEWEST_BLADES, MOST_BLADES = 3, 32
 NARROWEST_APODISATION, MOST_POWER = 0.1, 20
 FASTEST, SLOWEST = 0.01, 1e6  # f-numbers: wide of every lens, and of pinholes of a wavelength
 LARGEST_SIDE = 2**12  # samples along each side of a PSF or a transform: 128 MiB, and several times that in a sum
-WIDEST_PIXEL_UM = 1e6  # a metre
 LONGEST_PATH_UM = 1e6  # a metre: steeper than any real phase plate, and far below the overflow of slopes
 INFINITE = "{parameter} is {value:g}{unit}; give a positive number, inf allowed"
 FINITE = "{parameter} is {value:g}{unit}; give a positive finite number"
@@ -157,10 +156,8 @@ def check_samples(pixels: int | None, pixel_um: float | None, least: int = 1, mo
     One sample is a PSF, whose figures take two at ``least``.
     """
     check_whole("pixels", pixels, least, most, SamplingError)
-    if pixel_um is not None and not 0 < pixel_um < WIDEST_PIXEL_UM:
-        raise SamplingError(
-            "{parameter} is {value:g} µm; give a positive number below a metre", parameter="pixel_um", value=pixel_um
-        )
+    if pixel_um is not None and not 0 < pixel_um < inf:
+        raise SamplingError(FINITE, parameter="pixel_um", value=pixel_um, unit=" µm")
 
 
 def check_apodisation(name: str, value: float | None) -> None:

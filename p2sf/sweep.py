@@ -211,7 +211,7 @@ class Sweep:
         )
 
     def performance(self, frequency_per_mm: ArrayLike = (10.0, 30.0), *, clip: bool = False) -> NamedArrays:
-        """Return what an engineer reads first, by exact rays: see `p2sf.studies.performance.Performance`.
+        """Return what an engineer reads first, by exact rays: see `p2sf.performance.Performance`.
 
         ``rms_waves``, ``strehl``, contrasts ``tangential`` and ``sagittal`` at ``frequency_per_mm``, ``radius_80_um``,
         ``distortion``, ``illumination`` and ``lateral_colour_um``; NaN where there is no such figure.
@@ -390,7 +390,7 @@ def _energy_of(point: SweepPoint, radius_um: np.ndarray, **how: Any) -> Figures:
 
 
 def _performance_of(point: SweepPoint, frequency_per_mm: np.ndarray, clip: bool) -> Figures:
-    from p2sf.studies.performance import performance_of
+    from p2sf.performance import performance_of
 
     setup = point.setup
     return vars(performance_of(setup.lens, setup.source, frequency_per_mm, clip, partial(point.parts, "traced", clip)))

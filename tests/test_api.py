@@ -196,7 +196,7 @@ def test_a_database_is_built_written_opened_and_asked(tmp_path, method):
         (lambda: p2sf.tradeoff(LENS, fields_deg=[0, 175]), "fields_deg is 175°"),
         (lambda: p2sf.build_database(LENS, [inf], [0, 175], [550]), "fields_deg is 175°"),
         (lambda: p2sf.tradeoff(LENS, fields_deg=[0], pixels=0), "pixels is 0; give a whole number from 1"),
-        (lambda: p2sf.tradeoff(LENS, fields_deg=[0], pixel_um=0), "pixel_um is 0 µm; give a positive number"),
+        (lambda: p2sf.tradeoff(LENS, fields_deg=[0], pixel_um=0), "pixel_um is 0 µm; give a positive finite number"),
         (lambda: p2sf.render(LENS, p2sf.Source(field_slope=np.array([0.0, 0.1]))), r"of shape \(2,\)"),
         (lambda: p2sf.coefficients(LENS, p2sf.Source(np.array([500.0]))), r"of shape \(1,\)"),
         (lambda: p2sf.choose_method(LENS, p2sf.Source(wavelength_um=np.array([0.5, 0.6]))), r"of shape \(2,\)"),

@@ -25,7 +25,7 @@ LAYERS = (
     "p2sf.psf p2sf.pixel_kernels",
     "p2sf.scene",
     "p2sf.tolerance p2sf.database p2sf.image",
-    "p2sf.export p2sf.measure p2sf.studies",
+    "p2sf.export p2sf.measure p2sf.studies p2sf.performance",
     "p2sf.api p2sf_explorer.i18n p2sf_explorer.state",
     "p2sf.sweep p2sf_explorer.compute",
     "p2sf.camera p2sf_explorer.charts p2sf_explorer.store p2sf_explorer.report p2sf_explorer.notebook_widget",

@@ -81,7 +81,7 @@ def test_a_bundle_of_which_the_chief_ray_alone_arrives_has_no_psf():
     [
         (["--pixels", "1"], "--pixels is 1; give a whole number from 2"),
         (["--pixels", "4097"], "--pixels is 4097; give a whole number from 2 to 4096"),
-        (["--pixel-um", "-2"], "--pixel-um is -2 µm; give a positive number"),
+        (["--pixel-um", "-2"], "--pixel-um is -2 µm; give a positive finite number"),
     ],
 )
 def test_an_export_that_cannot_be_sampled_is_refused(options, words, refused):

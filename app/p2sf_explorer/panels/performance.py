@@ -4,7 +4,7 @@ from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QTableWidgetItem
 
 from p2sf.messages import Message
-from p2sf.studies.performance import PerformanceTable
+from p2sf.performance import PerformanceTable
 from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.views.performance import PerformanceRequest, answer

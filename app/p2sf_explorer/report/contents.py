@@ -14,8 +14,8 @@ from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.messages import Message
 from p2sf.paraxial.pupils import f_number
+from p2sf.performance import PerformanceTable
 from p2sf.setting import Request, explicit_values, set_up
-from p2sf.studies.performance import PerformanceTable
 from p2sf_explorer.compute.caption import field_text
 from p2sf_explorer.compute.layout import Layout, layout
 from p2sf_explorer.compute.live import Live, live

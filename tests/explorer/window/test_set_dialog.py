@@ -71,7 +71,7 @@ def test_texts_are_read_in_the_units_and_with_either_decimal_sign():
         ("fields", "0:∞:3", "field angle"),
         ("fields", "95", "field angle"),
         ("wavelengths", "5 mm", "unit"),
-        ("pixel", "0", "positive number"),
+        ("pixel", "0", "positive"),
         ("fill", "120 %", "fill factor"),
         ("pixels", "5000", "1 to 1024"),
     ],

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from p2sf.errors import P2SFError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.studies.performance import USUAL_PER_MM, PerformanceTable, growing_table
+from p2sf.performance import USUAL_PER_MM, PerformanceTable, growing_table
 from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.matrix.overlays import compared_fields
 from p2sf_explorer.compute.sampled import optics

@@ -7,7 +7,7 @@ import pytest
 
 import p2sf
 from p2sf.conventions import NM_PER_UM, UM_PER_MM
-from p2sf.studies.performance import PerformanceTable, growing_table, performance_of
+from p2sf.performance import PerformanceTable, growing_table, performance_of
 from tests.support.pupil_sums import sums
 from tests.support.rays.skew_rays import system_of, through_stop
 
