@@ -26,6 +26,7 @@ ALONG = 193  # points of a line of two radii at which crossings are sought
 DRAWN = 512  # of half a curve
 SECTIONS = 16  # of the interval of a corner in one step: so few rays cost no more than one
 ROUNDING = 1e-12  # of a series
+ROUND = 1e-9  # of a circle's radius: what a series of bisected radii leaves
 GAUSS_EXCESS = 1.5  # Gauss–Legendre nodes per uniform direction for the same harmonics: some π/2
 
 
@@ -158,13 +159,19 @@ class StarCurve:
         return excess
 
     def piece(self, counts: tuple[int, int]) -> Piece:
-        """Return nodes over the inside, in its own part of the disc, as dense as ``counts`` are over the whole disc."""
+        """Return nodes over the inside, in its own part of the disc, as dense as ``counts`` are over the whole disc.
+
+        Gauss in ρ, and in ρ² over a circle about the stop's middle, as over the disc.
+        """
         theta, step = self._directions(counts[1])
         radius = self.radius(theta)
         place, weight = gauss_legendre(ring_count(counts[0], min(1.0, float(radius.max()))))
-        part = (1 + place[:, None]) / 2
+        inward = (1 + place[:, None]) / 2
+        if max(*map(abs, self.middle), np.ptp(radius)) <= ROUND * radius.max():
+            part, area = np.sqrt(inward), weight[:, None] / 4 * radius**2 * step / pi
+        else:
+            part, area = inward, weight[:, None] / 2 * inward * radius**2 * step / pi  # ρ dρ dθ over the disc's area π
         rho = part * radius
-        area = weight[:, None] / 2 * part * radius**2 * step / pi  # ρ dρ dθ over the disc's area π
         xi, eta = self.middle[0] + rho * np.sin(theta), self.middle[1] + rho * np.cos(theta)
         return xi.ravel(), eta.ravel(), area.ravel()
 

@@ -58,7 +58,7 @@ OPTIONS = [
     ("psf", "--pixels 0", ("--pixels is 0",)),
     ("psf", "--pixels 2.5", ("--pixels", "2.5")),
     ("spot", "--rings 2.5", ("--rings", "2.5")),
-    ("psf", "--pixels 1000000", ("--pixels is 1000000", "2048")),
+    ("psf", "--pixels 1000000", ("--pixels is 1000000", "4096")),
     ("psf", "--pixel-um 0", ("--pixel-um is 0 µm",)),
     ("psf", "--pixel-um nan", ("--pixel-um is nan µm",)),
     ("psf", "--min-r2 1.5", ("--min-r2 is 1.5",)),
