@@ -45,11 +45,12 @@ def pupil_of(lens: Lens) -> PupilStack:
 
 def picture(pupil: PupilStack, side: int = SIDE) -> np.ndarray:
     """Return the light at samples λ/4NA apart, row 0 at the bottom, true to FARTHEST Airy radii."""
-    pitch = 1 / (4 * pupil.radius)
+    radius = pupil.radius.item()
+    pitch = 1 / (4 * radius)
     light = sampled_light(pupil, np.zeros(1), PixelWindow((side - 1) // 2, pitch, 1), np.zeros((1, 2)))[0]
-    half, middle = min(int(FARTHEST * AIRY / pupil.radius / pitch) + 1, (side - 1) // 2), (side - 1) // 2
+    half, middle = min(int(FARTHEST * AIRY / radius / pitch) + 1, (side - 1) // 2), (side - 1) // 2
     near = slice(middle - half, middle + half + 1)
-    light[near, near] *= rim_gain(half, pitch, side * pitch, pupil.reach_um)
+    light[near, near] *= rim_gain(half, pitch, side * pitch, pupil.reach_um.item())
     return light
 
 
@@ -68,7 +69,8 @@ def exact(lens: Lens) -> Callable[[np.ndarray, np.ndarray], np.ndarray]:
 def tails(lens: Lens, radii: tuple[int, ...] = RADII) -> list[float]:
     """Return the light on rings over that of the exact sum, both relative to their peaks."""
     pupil = pupil_of(lens)
-    light, pitch = picture(pupil), 1 / (4 * pupil.radius)
+    light, cutoff = picture(pupil), pupil.radius.item()
+    pitch = 1 / (4 * cutoff)
     middle, found = (SIDE - 1) // 2, []
     patch, summed = np.arange(-PATCH // 2, PATCH // 2 + 1), exact(lens)
 
@@ -79,7 +81,7 @@ def tails(lens: Lens, radii: tuple[int, ...] = RADII) -> list[float]:
 
     core = both(0, 0)
     for radius in radii:
-        steps = radius * AIRY / pupil.radius / pitch
+        steps = radius * AIRY / cutoff / pitch
         angles = 2 * np.pi * np.arange(AZIMUTHS) / AZIMUTHS  # along every spike too
         ring = sum(both(round(steps * np.sin(angle)), round(steps * np.cos(angle))) for angle in angles)
         found.append(float(ring[0] / core[0] / (ring[1] / core[1])))
