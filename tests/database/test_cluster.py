@@ -60,6 +60,7 @@ def test_two_processes_of_a_cluster_write_the_same_bytes(plain, cluster, tmp_pat
 def on_the_way(cluster, act):
     """Return a ``progress`` that acts on one of two slowed workers once the first chunk is done, and its id."""
     with connect(cluster.address) as client:
+        client.wait_for_workers(2)  # one that was killed before may be on its way back
         victim = min(client.run(slowed).values())
     return (lambda now: act(victim) if now.done == 1 else None), victim
 
