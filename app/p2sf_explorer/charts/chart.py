@@ -92,14 +92,14 @@ class Chart(QWidget):
 
     The wheel zooms, a drag pans, a double-click goes home, a click pins a marker (`charts/hand.py`); where a chart
     `takes` a drag or ``takes_arrows`` for something else, Shift or the middle button pan. ``viewed``: the range has
-    changed by hand,
-    or since two plots share it; ``zoomed``: with the ranges moved to by hand; ``pointed``: the crosshair is at another
-    place of the data, None for none.
+    changed by hand, or since two plots share it; ``zoomed``: with the ranges moved to by hand; ``let_go``: a lock was
+    opened by hand; ``pointed``: the crosshair is at another place of the data, None for none.
     """
 
     accessible_role = QAccessible.Role.Chart
     viewed = Signal()
     zoomed = Signal(object)
+    let_go = Signal()
     pointed = Signal(object)
     takes_arrows = False
     kept_clear: tuple[float, float, float] | None = None  # middle and half side of a square that boxes do not cover
@@ -247,6 +247,8 @@ class Chart(QWidget):
         if axes == "all" and self.bar:
             self.bar.turn_lock(on)
         self._see(x if axes == "y" else x.with_lock(on), y if axes == "x" else y.with_lock(on))
+        if not on:
+            self.let_go.emit()
 
     def _see(self, x: AxisView, y: AxisView) -> None:
         if (x, y) != (self.x_axis, self.y_axis):

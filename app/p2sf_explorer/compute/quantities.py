@@ -126,6 +126,7 @@ DEPTH = Quantity(
     ticks=lambda ranges: distance_ticks(ranges.closest_mm),
     marks=lambda state, ranges: (_focus_distance(state, ranges),),
 )
+FAR_UM = 1000.0  # from it on a shift is written to whole µm, which has room for its sign
 FINE_DEG = 0.1  # below it a field, such as a telescope's, is written to 1e-4°
 FIELD = Quantity(
     key="field_deg",
@@ -185,7 +186,7 @@ SHIFT = Quantity(
     title="Sensor shift",
     tip="Sensor shift Δz away from the lens, in addition to focus; it adds the defocus Wd = NA²Δz/(2n′λ).",
     scale=lambda ranges: Linear(-ranges.shift_um, ranges.shift_um),
-    write=lambda value: f"{with_sign(value, 1)} µm",
+    write=lambda value: f"{with_sign(value, 1 if abs(value) < FAR_UM else 0)} µm",
     read=_reader("sensor shift", **{"µm": 1.0, "um": 1.0, "mm": 1e3}),
     shown=_plain("sensor_shift_um"),
     ticks=lambda ranges: tuple((part * ranges.shift_um, _shift_text(part * ranges.shift_um)) for part in (0, -1, 1)),

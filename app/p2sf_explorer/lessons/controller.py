@@ -97,6 +97,7 @@ class LessonController(QObject):
         self.desk.answered.connect(lambda: self.follow(self.store.state))
         room.column.installEventFilter(self)
         room.column.splitterMoved.connect(self._keep_shares)
+        self._pointed_at: tuple[str, int, str] = "", 0, ""
         self._by_hand = False  # the shares of page and sliders are a person's
         self.store.changed.connect(self.follow)
         self.follow(self.store.state)
@@ -251,7 +252,7 @@ class LessonController(QObject):
         """End the lesson and go back to the state before it, which is among the steps of undo."""
         from p2sf_explorer.lessons.lesson import PERSONAL
 
-        here = change(self.store.state, lesson_name="", lesson_step=0, lesson_told=False)
+        here = change(self.store.state, lesson_name="", lesson_step=0, lesson_told=False, held_scales=())
         kept = {name: entry(here, name) for name in PERSONAL}
         before = self.store.latest(lambda state: not state.lesson.name)
         self.store.replace(change(before, **kept) if before else here)
@@ -357,5 +358,7 @@ class LessonController(QObject):
                 for part in (row, *row.findChildren(QLabel)):
                     part.style().unpolish(part)
                     part.style().polish(part)
-                if wanted:
-                    self._room.sliders.reveal(key)
+        place = self.store.state.lesson
+        if key and (place.name, place.step, key) != self._pointed_at:
+            self._room.sliders.reveal(key)
+        self._pointed_at = place.name, place.step, key

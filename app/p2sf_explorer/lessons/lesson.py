@@ -31,6 +31,7 @@ PERSONAL = (
     "language",
     "colours",
     "scale_percent",
+    "show_more",
 )  # a lesson changes the optics and leaves these to whoever sits there
 MOST_BYTES, LONGEST_LINE = 1_000_000, 2000  # letters; what patterns cost grows with the square of a line
 HEADER = ("title", "about", "lens", "state", "language", "lesson")

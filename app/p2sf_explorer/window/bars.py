@@ -18,17 +18,17 @@ from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr, unbroken
 from p2sf_explorer.state.limits import CHOICES
 from p2sf_explorer.state.scales import with_sign
-from p2sf_explorer.state.state import Optics, State
+from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import combo_of, select
 from p2sf_explorer.widgets.exactness_slider import ExactnessButton
 from p2sf_explorer.widgets.readout import SIZE, Readout
+from p2sf_explorer.window import fold
 from p2sf_explorer.window.lens_cards import shown_title
 from p2sf_explorer.window.lens_chooser import LensChooser
 from p2sf_explorer.window.no_answer import UNKNOWN
 from p2sf_explorer.window.workspace_bar import WorkspaceBar
 
-USUAL = Optics()
 GAP = 6  # pixels at scale 1 between two parts of the bar
 FACTS_PX, SHORT_FACTS_PX = 490, 230  # widths of the figures at the right of the status line, at scale 1
 MARGINS_PX = 16  # about both parts of the status line and between them
@@ -52,7 +52,7 @@ class TopBar(QFrame):
         self._store = store
         self.workspaces: WorkspaceBar | None = None
         self._shown: tuple[object, ...] = ()
-        self._trade = False  # whether the choice between speed and accuracy is unfolded
+        self._folded, self._trade = fold.Fold(), False  # whether the choice between speed and accuracy is unfolded
         self._gap = GAP
         self.lens = LensChooser(self)
         self.lens.chosen.connect(self.lens_chosen)
@@ -175,7 +175,7 @@ class TopBar(QFrame):
         self.lens.show_lens(state.optics.lens, shown_title(state), theme)
         self.edited.setVisible(state.optics.lens_text is not None)
         select(self.method, state.optics.method)
-        self._trade = state.display.show_more or not state.optics.automatic or state.optics.tolerance != USUAL.tolerance
+        self._trade = fold.METHOD in self._folded.shown(state)
         self.method.setVisible(self._trade)
         self.tolerance.setVisible(self._trade)
         self.tolerance.show_state(state)

@@ -1,6 +1,6 @@
 """The column of controls: one row per quantity, each a name, an editable number, a slider."""
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtWidgets import (
     QCheckBox,
     QHBoxLayout,
@@ -23,10 +23,11 @@ from p2sf_explorer.i18n.messages import WINDOW, said
 from p2sf_explorer.i18n.tr import tr, unbroken
 from p2sf_explorer.state.limits import RINGS
 from p2sf_explorer.state.scales import with_sign
-from p2sf_explorer.state.state import Optics, State
+from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import chooser, select
 from p2sf_explorer.widgets.readout import FactTable, Sentence, in_scroll_area
+from p2sf_explorer.window import fold
 from p2sf_explorer.window.no_answer import UNKNOWN
 from p2sf_explorer.window.quantity_rows import PupilShape, QuantityRow
 
@@ -93,10 +94,9 @@ def asked(state: State, limits: Ranges) -> bool:
 
 
 ABOVE = {each.key: each for each in (*RING_QUANTITIES, *SOURCE_QUANTITIES) if each is not SHIFT}  # the fold
-FIRST = Optics()
 MORE_TIP = (
     "Sensor shift, pupil shape, stop, rims, how rays fill the pupil, method and accuracy. What differs from the lens "
-    "file is always shown."
+    "file, or from the usual method, is always shown."
 )
 WIDTH = 292  # pixels of the column at scale 1
 
@@ -119,11 +119,13 @@ class Controls(QWidget):
         for row in self.rows.values():
             row.swept.connect(self.swept)
             row.grasped.connect(self.grasped)
+        self.stopping, self.aiming = StopRow(store, self), AimRow(store, self)
         self.focus_button = QPushButton(tr("Autofocus: best RMS wavefront"), self)
         self.focus_button.setToolTip(tr("Move the sensor to where the RMS of W over the pupil is smallest (Ctrl+F)."))
         self.focus_button.clicked.connect(self.autofocus)
-        self.stopping, self.aiming = StopRow(store, self), AimRow(store, self)
-        self._slim, self._state = False, store.state
+        self._slim, self._state, self._folded = False, store.state, fold.Fold()
+        self._wanted, self._scroll = "", QTimer(self, singleShot=True, interval=0)
+        self._scroll.timeout.connect(self._scroll_to_wanted)
         self.sentence, self.detail, self.facts = Sentence(self), Sentence(self), FactTable(self)
         self._lay_out()
 
@@ -181,25 +183,35 @@ class Controls(QWidget):
             part.setVisible(not slim)
         self._below.setVisible(slim)
         self._unfold(self._state)
+        if pointed := [key for key, row in self.rows.items() if row.property("pointed")]:
+            self.reveal(pointed[0])
 
     def _unfold(self, state: State) -> None:
         """Show what a first look does not need where a person asks for it, a lesson points there, or it is set."""
         self._state = state
-        optics, more, full = state.optics, state.display.show_more, not self._slim
+        more, full, shift = state.display.show_more, not self._slim, self.rows[SHIFT.key]
+        pointed = {fold.SHIFT} if shift.property("pointed") else set()
+        if any(row.property("pointed") for row in self.shape.rows.values()):
+            pointed.add(fold.SHAPE)
+        parts = self._folded.shown(state, pointed)
         self.more.setText(tr("▾ More controls") if more else tr("▸ More controls"))
-        shift = self.rows[SHIFT.key]
-        shift.setVisible(more or bool(optics.sensor_shift_um) or bool(shift.property("pointed")))
-        pointed = any(row.property("pointed") for row in self.shape.rows.values())
-        self.shape.setVisible(more or bool(optics.mask) or state.display.show_pupil_shape or pointed)
-        self.stopping.setVisible(full and (more or optics.stop != FIRST.stop or optics.clip))
-        self.aiming.setVisible(full and (more or optics.aim != FIRST.aim))
-        self.focus_button.setVisible(full and more)
-        self.detail.setVisible(full and more)
+        shift.setVisible(fold.SHIFT in parts)
+        self.shape.setVisible(fold.SHAPE in parts)
+        self.stopping.setVisible(full and fold.STOP in parts)
+        self.aiming.setVisible(full and fold.AIM in parts)
+        self.focus_button.setVisible(full and fold.FOCUS in parts)
+        self.detail.setVisible(full and (more or bool(state.lesson.name)))
 
     def reveal(self, key: str) -> None:
         """Show the row of a quantity, and scroll to it where the column is too low for all."""
         self._unfold(self._state)
-        self.area.ensureWidgetVisible(self.rows[key], 0, self.rows[key].height())
+        self._wanted = key
+        self._scroll.start()
+
+    def _scroll_to_wanted(self) -> None:
+        """Scroll to the row that was wanted last, once the column is laid out with it."""
+        row = self.rows[self._wanted]
+        self.area.ensureWidgetVisible(row, 0, row.height())
 
     def show_state(self, state: State) -> None:
         """Follow a state."""

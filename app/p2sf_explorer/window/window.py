@@ -489,8 +489,16 @@ class MainWindow(QMainWindow):
         made.widget.apart_asked.connect(partial(self.floating.toggle, key))
         made.widget.place_asked.connect(lambda place: self._move_to(place, key))
         made.widget.theory_asked.connect(lambda: self.commands.theory(key))
+        if key in HOLDABLE:
+            for chart in made.widget.findChildren(Chart):
+                chart.let_go.connect(partial(self._let_go, key))
         if isinstance(made, FilmedPanel):
             made.film.clicked.connect(self.play.ask_film_of_builds)
+
+    def _let_go(self, key: str) -> None:
+        """Hold a panel's scale no longer, in the state too."""
+        held = self.store.state.display.held_scales
+        self.store.update(held_scales=tuple(pair for pair in held if pair[0] != key))
 
     def _on_tab(self) -> None:
         self.store.update(tab=self.tabs.current())

@@ -6,6 +6,7 @@ from PySide6.QtGui import QImage
 
 from p2sf.errors import P2SFError
 from p2sf_explorer.compute.framing import light_circle
+from p2sf_explorer.compute.live import live
 from p2sf_explorer.course.lectures import FOLDER as COURSE_FOLDER
 from p2sf_explorer.lessons.changes import LessonError, apply_changes, read_changes
 from p2sf_explorer.lessons.lesson import FOLDER as LESSON_FOLDER
@@ -13,6 +14,7 @@ from p2sf_explorer.lessons.lesson import lesson_files, read_lesson
 from p2sf_explorer.lessons.making.recording import written_changes
 from p2sf_explorer.state.link import link, state_of_link
 from p2sf_explorer.state.state import State, change, new_state
+from p2sf_explorer.store.store import Store
 from tests.support.windows.windows import at_rest
 
 LESSONS = {path.stem: read_lesson(path) for folder in (LESSON_FOLDER, COURSE_FOLDER) for path in lesson_files(folder)}
@@ -97,17 +99,43 @@ def test_what_a_page_compares_stands_on_one_scale_and_is_in_view(window, qtbot, 
     assert scales[0] == scales[1]
 
 
-def test_the_padlock_lets_go_until_another_page_holds_a_scale(window, qtbot):
+HELD = [
+    pytest.param(LESSONS[name].state(number), id=f"{name}-{number + 1}")
+    for name, lesson in LESSONS.items()
+    for number in range(len(lesson.steps))
+    if "psf" in dict(lesson.state(number).display.held_scales)
+]
+
+
+@pytest.mark.parametrize("state", HELD)
+def test_what_a_page_begins_with_is_within_its_held_scale(state):
+    found, half = live(state), dict(state.display.held_scales)["psf"]
+    light = light_circle(found.psf.values, found.psf.pixel_um, found.airy_radius_um)
+    assert max(abs(light.x_um), abs(light.y_um)) + SHOWN * light.radius_um <= half
+
+
+def test_the_padlock_lets_go_in_the_state_too_until_another_page_holds_a_scale(window, qtbot):
     lesson, chart = LESSONS["02_diffraction"], window.panels["psf"].map.chart
     painted(window, qtbot, lesson.state(1))
     assert chart.locked and chart.x_axis.shown == (-36.0, 36.0)
     chart.turn_lock("xy")
-    painted(window, qtbot, change(lesson.state(1), f_number=20.0))
+    assert window.store.state.display.held_scales == ()
+    painted(window, qtbot, change(window.store.state, f_number=20.0))
     assert not chart.locked and chart.x_axis.shown != (-36.0, 36.0)
     painted(window, qtbot, lesson.state(2))
     assert chart.locked and chart.y_axis.shown == (-9.0, 9.0)
     painted(window, qtbot, lesson.state(0))
     assert not chart.locked
+
+
+def test_a_held_scale_ends_with_its_lesson_and_with_another_lens(window):
+    """Also in a window that began inside the lesson, where nothing was before."""
+    window.store.take_over(Store(LESSONS["14_hubble"].state(1)))
+    window.teaching.leave()
+    assert not window.store.state.lesson.name and window.store.state.display.held_scales == ()
+    window.store.replace(LESSONS["lecture_1"].state(2))
+    window.commands.open_lens("cooke_triplet")
+    assert window.store.state.display.held_scales == ()
 
 
 def test_a_held_scale_is_written_and_read_back():

@@ -2835,7 +2835,7 @@
 <message><source>More or fewer controls</source><translation>Mehr oder weniger Regler</translation></message>
 <message><source>▸ More controls</source><translation>▸ Weitere Regler</translation></message>
 <message><source>▾ More controls</source><translation>▾ Weitere Regler</translation></message>
-<message><source>Sensor shift, pupil shape, stop, rims, how rays fill the pupil, method and accuracy. What differs from the lens file is always shown.</source><translation>Sensorverschiebung, Pupillenform, Blende, Ränder, wie Strahlen die Pupille füllen, Verfahren und Genauigkeit. Was von der Objektivdatei abweicht, ist immer zu sehen.</translation></message>
+<message><source>Sensor shift, pupil shape, stop, rims, how rays fill the pupil, method and accuracy. What differs from the lens file, or from the usual method, is always shown.</source><translation>Sensorversatz, Pupillenform, Blende, Randbeschnitt, wie Strahlen die Pupille füllen, Methode und Genauigkeit. Was von der Objektivdatei oder der üblichen Methode abweicht, ist immer zu sehen.</translation></message>
 <message><source>▸ Pupil shape</source><translation>▸ Pupillenform</translation></message>
 <message><source>▾ Pupil shape</source><translation>▾ Pupillenform</translation></message>
 <message><source>Copy as CSV</source><translation>Als CSV kopieren</translation></message>

@@ -21,6 +21,7 @@ from p2sf_explorer.files.recent import recent_files, remember
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.limits import CLEAR_PUPIL, MASK
 from p2sf_explorer.state.panels import REGISTRY
+from p2sf_explorer.state.state import change
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Card
 from p2sf_explorer.widgets.command import Command
@@ -181,7 +182,7 @@ class Actions(QObject):
 
     def open_lens(self, name: str) -> bool:
         """Move to another lens, shipped or a file."""
-        return self.attempt(lambda: self._store.replace(with_lens(self._store.state, name)))
+        return self.attempt(lambda: self._store.replace(change(with_lens(self._store.state, name), held_scales=())))
 
     def autofocus(self) -> bool:
         """Move the sensor to the smallest RMS wavefront."""
