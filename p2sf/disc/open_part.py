@@ -35,6 +35,8 @@ SCAN = 192  # directions to half a turn between which corners are sought: a shor
 ON_EDGE = 1e-9  # in radii of the rim
 CORNER_STEPS = 4  # a corner's direction to 2e-7: the radius is continuous there, and the sum good to the square
 
+NOTHING_OPEN = "rims and the mask in the stop leave nothing open; leave {parameter} off"
+
 TURN = np.arange(2 * CURVE) * (pi / CURVE)
 DISC = np.stack([np.sin(TURN), np.cos(TURN)])
 
@@ -92,6 +94,8 @@ class OpenPart:
         """
         if self.whole:
             return self.domain.nodes(counts) if self.mask.clear else self.domain.over(mask_nodes(self.mask, *counts))
+        if not self._regions:
+            raise GeometryError(NOTHING_OPEN, parameter="clip")
         pieces = []
         for sign, curve in self._regions:
             xi, eta, area = curve.piece(counts)
@@ -146,9 +150,7 @@ class OpenPart:
         xi, eta, area = (np.concatenate(column) for column in zip(*parts, strict=True))
         share = float(area.sum())
         if not share > THINNEST:
-            raise GeometryError(
-                "rims and the mask in the stop leave nothing open; leave {parameter} off", parameter="clip"
-            )
+            raise GeometryError(NOTHING_OPEN, parameter="clip")
         return ClearNodes(xi, eta, area / share, share, domain=self.domain)
 
 
@@ -184,9 +186,8 @@ def curve_within(edges: Sequence[Inside], domain: PupilDomain) -> StarCurve | No
     corners = [changes_of(first, theta, first(theta), CORNER_STEPS)]
     for curve in edges:
         if isinstance(curve, StarCurve):
-            xi, eta = curve.corner_points(domain)
-            there = np.all([edge.depth(xi, eta) > -ON_EDGE for edge in edges], axis=0)
-            corners.append(np.arctan2(xi - middle[0], eta - middle[1])[there])
+            xi, eta = curve.corner_points(domain)  # also where another edge cuts them off: the cut may be short
+            corners.append(np.arctan2(xi - middle[0], eta - middle[1]))
     ascending = np.unique(np.round(np.mod(np.concatenate(corners), 2 * pi), 9)).tolist()
     return curve_between(lambda angle: distances(angle).min(0), middle, domain.between(ascending), domain)
 
@@ -198,6 +199,8 @@ def _middle(edges: Sequence[Inside], domain: PupilDomain) -> tuple[float, float]
     held = np.all([edge.depth(xi, eta) > 0 for edge in edges], axis=0)
     if held.any():
         middles.append(domain.middle(xi[held], eta[held]))
+    elif (rims := _held_edges(edges)).size:
+        middles.append(domain.middle(*rims))
     depths = [min(float(edge.depth(*map(np.array, middle))) for edge in edges) for middle in middles]
     deepest = int(np.argmax(depths))
     if depths[deepest] > ON_EDGE:
@@ -208,6 +211,17 @@ def _middle(edges: Sequence[Inside], domain: PupilDomain) -> tuple[float, float]
             parameter="clip",
         )
     return None
+
+
+def _held_edges(edges: Sequence[Inside]) -> np.ndarray:
+    """Return the points of the edges that lie within all others, ξ and η, (2, points): of an overlap of any size."""
+    found = [np.zeros((2, 0))]
+    for number, edge in enumerate(edges):
+        if isinstance(edge, Disc | StarCurve):
+            points = np.stack(edge.outline(TURN) if isinstance(edge, Disc) else edge.points(CURVE // 2, WHOLE))
+            others = [other.depth(*points) > 0 for at, other in enumerate(edges) if at != number]
+            found.append(points[:, np.all(others, axis=0)])
+    return np.concatenate(found, axis=1)
 
 
 def edges_of(mask: PupilMask) -> tuple[Edges, Edges]:

@@ -159,13 +159,18 @@ class StarCurve:
         return excess
 
     def piece(self, counts: tuple[int, int]) -> Piece:
-        """Return nodes over the inside, in its own part of the disc, as dense as ``counts`` are over the whole disc.
+        """Return nodes over the inside, in its own part of the disc, as dense as ``counts`` are over the whole disc."""
+        theta, _ = self._directions(counts[1])
+        return self._nodes(ring_count(counts[0], min(1.0, float(self.radius(theta).max()))), counts[1])
 
-        Gauss in ρ, and in ρ² over a circle about the stop's middle, as over the disc.
+    def _nodes(self, radial: int, angular: int) -> Piece:
+        """Return nodes over the inside, of so many radii: Gauss in ρ, and in ρ² over a circle about the stop's middle.
+
+        Over such a circle, as over the disc, odd powers of ρ cancel.
         """
-        theta, step = self._directions(counts[1])
+        theta, step = self._directions(angular)
         radius = self.radius(theta)
-        place, weight = gauss_legendre(ring_count(counts[0], min(1.0, float(radius.max()))))
+        place, weight = gauss_legendre(radial)
         inward = (1 + place[:, None]) / 2
         if max(*map(abs, self.middle), np.ptp(radius)) <= ROUND * radius.max():
             part, area = np.sqrt(inward), weight[:, None] / 4 * radius**2 * step / pi
@@ -186,8 +191,8 @@ class StarCurve:
         return np.concatenate(thetas), np.concatenate(steps)
 
     def nodes(self, counts: tuple[int, int]) -> ClearNodes:
-        """Return the nodes over the inside, as dense as ``counts`` are over the whole disc."""
-        xi, eta, area = self.piece(counts)
+        """Return nodes over the inside with all radii of ``counts``, which determine a polynomial of their order."""
+        xi, eta, area = self._nodes(*counts)
         area = area * len(self.domain.images)
         share = float(area.sum())
         return ClearNodes(xi, eta, area / share, share, domain=self.domain)

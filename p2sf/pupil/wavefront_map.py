@@ -6,7 +6,7 @@ picture, RMS and the shares of the variance are read off there.
 """
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache, partial
 
 import numpy as np
@@ -17,7 +17,7 @@ from p2sf.disc.domain import HALF, WHOLE, ClearNodes, PupilDomain
 from p2sf.disc.mask import PupilMask
 from p2sf.disc.mask_nodes import mask_nodes
 from p2sf.disc.mask_outline import obstructions, opening
-from p2sf.disc.open_part import OpenPart
+from p2sf.disc.open_part import WHOLE_DISC, OpenPart
 from p2sf.disc.tilt import rms
 from p2sf.disc.zernike import powers
 from p2sf.disc.zernike_terms import family, zernike_terms, zernike_values
@@ -305,7 +305,7 @@ def _open_part(mask: PupilMask, known: MapTerms, clear: OpenPart | None) -> MapP
     def at(xi: np.ndarray, eta: np.ndarray) -> TermsAt:
         return TermsAt(known.at(xi, eta), path_um(xi, eta))
 
-    nodes, parts = _figure_nodes(mask, known, clear)
+    nodes = _figure_nodes(mask, known, clear)
     if mask.clear and clear is None:  # where they are orthogonal as they are
         degrees, terms = known.degrees, known.at
     else:
@@ -316,7 +316,7 @@ def _open_part(mask: PupilMask, known: MapTerms, clear: OpenPart | None) -> MapP
         nodes=nodes,
         at_nodes=at(nodes.xi, nodes.eta),
         at_edges=at(*_open_edges(mask, clear)),
-        columns=_orthonormal(terms, nodes, parts),
+        columns=_orthonormal(terms, nodes),
         degrees=degrees,
         path_um=path_um(*disc(SAMPLES[known.quality])[:2]),
         open=open_,
@@ -327,35 +327,20 @@ def _open_part(mask: PupilMask, known: MapTerms, clear: OpenPart | None) -> MapP
     )
 
 
-def _orthonormal(
-    terms: Callable[[np.ndarray, np.ndarray], np.ndarray], nodes: ClearNodes, parts: ClearNodes
-) -> np.ndarray:
-    """Return terms made orthonormal in order over nodes, (nodes, terms).
-
-    First by a QR decomposition over ``parts``, nodes of positive weights over nearly the same; where that is not the
-    same, of what is then nearly orthonormal by Cholesky's of its products.
-    """
-    parts = parts if parts is nodes else nodes.domain.over(parts)
-    columns, lengths = np.linalg.qr((terms(parts.xi, parts.eta) * np.sqrt(parts.weight)).T)
-    if parts is nodes:
-        return np.asarray(columns / np.sqrt(parts.weight)[:, None])
-    known = np.linalg.solve(lengths.T, terms(nodes.xi, nodes.eta))
-    found: np.ndarray = np.linalg.solve(np.linalg.cholesky(known * nodes.weight @ known.T), known)
-    return found.T
+def _orthonormal(terms: Callable[[np.ndarray, np.ndarray], np.ndarray], nodes: ClearNodes) -> np.ndarray:
+    """Return terms made orthonormal in order over nodes of positive weights, (nodes, terms), by a QR decomposition."""
+    columns, _ = np.linalg.qr((terms(nodes.xi, nodes.eta) * np.sqrt(nodes.weight)).T)
+    return np.asarray(columns / np.sqrt(nodes.weight)[:, None])
 
 
-def _figure_nodes(mask: PupilMask, known: MapTerms, clear: OpenPart | None) -> tuple[ClearNodes, ClearNodes]:
-    """Return nodes over what is open, and such of positive weights, for which vanes are set aside."""
+def _figure_nodes(mask: PupilMask, known: MapTerms, clear: OpenPart | None) -> ClearNodes:
+    """Return nodes over what is open, of positive weights, over which figures are those of least squares."""
     if clear is None:
-        if mask.clear:
-            return (known.domain.nodes(RAYS[known.quality]),) * 2
-        nodes, parts = (mask_nodes(some, *RAYS[known.quality]) for some in (mask, mask.without_vanes))
-        over = known.domain.over(nodes)
-        return over, over if parts is nodes else known.domain.over(parts)
-    parts = _positive_nodes(clear.behind(mask.without_vanes), RIM_COUNTS[known.quality])
-    if mask.clear:
-        return parts, parts
-    return clear.behind(mask).nodes(RIM_COUNTS[known.quality]), parts
+        plain = known.domain.over(mask_nodes(mask, *RAYS[known.quality]))
+        if (plain.weight > 0).all():
+            return plain
+    part = clear or replace(WHOLE_DISC, domain=known.domain)
+    return _positive_nodes(part.behind(mask), RIM_COUNTS[known.quality])
 
 
 def _on_samples(mask: PupilMask, clear: OpenPart | None, count: int) -> tuple[np.ndarray, np.ndarray]:

@@ -31,6 +31,18 @@ def test_nodes_are_of_the_inside():
     assert nodes.weight @ nodes.eta**2 == pytest.approx(CIRCLE.eta**2 + CIRCLE.radius**2 / 4, abs=1e-9)
 
 
+def test_nodes_over_a_small_part_have_the_radii_of_the_whole():
+    """Polynomials through values at nodes keep their order: 16 radii are exact to ρ³⁰ about the middle, here x²⁶.
+
+    Its mean over a disc of radius R is R²⁶·2·(25!!/26!!)/28.
+    """
+    nodes = SEEN.nodes((16, 64))
+    assert nodes.xi.size >= 16 * 64
+    about = circle_seen_from(CIRCLE.xi, CIRCLE.eta).nodes((16, 64))
+    mean = CIRCLE.radius**26 * 2 / 28 * np.prod(np.arange(1, 26, 2) / np.arange(2, 27, 2))
+    assert about.weight @ (about.xi - CIRCLE.xi) ** 26 == pytest.approx(mean, rel=1e-9)
+
+
 def test_lines_are_cut_where_they_cross_the_circle():
     """Points lie inside of it where they do."""
     aside = np.linspace(-0.7, 0.3, 21)

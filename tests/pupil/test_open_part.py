@@ -170,6 +170,38 @@ def test_pieces_and_lines_are_of_one_open_part(mask, field_deg, hole):
     assert 0.3 < part.nodes((32, 96)).share < 0.96
 
 
+@pytest.mark.parametrize(
+    ("name", "field_deg", "mask", "hole"),
+    [
+        ("telephoto", 17.305, {"blades": 6, "roundness": 0.3, "blade_angle_deg": 113.747, "obscuration": 0.105}, None),
+        ("tessar", 13.589, {"obscuration": 0.219}, (0, 0.0697)),
+        ("tessar", 4.454, {"obscuration": 0.287, "obscuration_x": -0.234, "obscuration_y": -0.571}, (2, 0.1347)),
+        ("cooke_triplet", 19.359, {"obscuration": 0.405, "blades": 5, "blade_angle_deg": 58.231}, (0, 2.259)),
+        ("wide_angle_35", 38.0, {"blades": 3, "blade_angle_deg": 60.0}, None),
+    ],
+)
+def test_overlaps_of_any_size_and_corners_cut_off_count(name, field_deg, mask, hole):
+    """A disc beside a blade, a hole beside a disc, by slivers; a corner of the rim that a blade just cuts off.
+
+    Lines between chords find them by crossings alone, and hold as much less as above.
+    """
+    lens = with_mask(find_lens(name), PupilMask(**mask))
+    if hole:
+        rows = list(lens.surfaces)
+        rows[hole[0]] = replace(rows[hole[0]], inner_radius=hole[1])
+        lens = replace(lens, surfaces=tuple(rows))
+    part = open_part(lens, Source(field_deg=field_deg), True)
+    assert part.nodes((32, 96)).share == pytest.approx(part.line_nodes(800, 64).share, abs=2e-5)
+
+
+def test_an_iris_beside_all_that_is_clear_is_refused():
+    rows = Surface(thickness=20.0, semi_diameter=5.0), Surface(), Surface(thickness=95.0, ideal_focal_length=100.0)
+    lens = Lens(rows, Aperture("stop_semi_diameter", 5.0), 2, aim="paraxial")
+    lens = with_mask(lens, PupilMask(blades=3, blade_angle_deg=60))
+    with pytest.raises(GeometryError, match="nothing open; leave clip off"):
+        pupil_nodes(lens, Source(field_deg=float(np.rad2deg(np.arctan(1.9 * 5 / 20)))), (16, 48), True)
+
+
 @pytest.mark.parametrize("azimuth_deg", [0.0, 250.0])
 def test_rims_of_a_misaligned_lens_are_seen_from_any_azimuth(azimuth_deg):
     """The open share against exact rays of a grid of 1e5 points, good to 1e-3 by its edges."""

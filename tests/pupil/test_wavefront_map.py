@@ -11,6 +11,7 @@ from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
+from p2sf.pupil.seen_mask import mask_seen
 from p2sf.pupil.wavefront_map import map_of, samples_of_rays
 from p2sf.raytrace.pencil import displayed_opd, pencil, pupil_grid
 from tests.support.waves import rms_about_plane
@@ -35,3 +36,26 @@ def test_what_a_surface_shadows_counts_nowhere(off, mask):
     waves = displayed_opd(lens, POINT, xi, eta)
     assert found.clear == pytest.approx(xi.size * 4 / 300**2 / np.pi, abs=1e-3)
     assert found.rms == pytest.approx(rms_about_plane(waves, xi, eta), rel=2e-3)  # by the edges of the grid
+
+
+@pytest.mark.parametrize("quality", ["preview", "settled"])
+@pytest.mark.parametrize(
+    ("name", "field_deg", "mask", "clip"),
+    [
+        ("double_gauss_28", 14.0, {"obscuration": 0.6}, True),
+        ("cooke_triplet", 20.0, {"obscuration": 0.8}, True),
+        ("petzval", 3.64, {"vanes": 7, "vane_width": 0.3}, False),
+        ("double_gauss_28", 4.0, {"obscuration": 0.3, "obscuration_x": 0.2}, False),
+    ],
+)
+def test_little_that_is_open_has_an_rms_as_well(name, field_deg, mask, clip, quality):
+    """To 3 %: by the edges of the grid, and of a preview, whose nodes are few."""
+    lens, source = with_mask(find_lens(name), PupilMask(**mask)), Source(field_deg=field_deg)
+    found = map_of(lens, source, samples_of_rays(lens, source, quality, clip), quality)
+    xi, eta, inside = pupil_grid(400)
+    inside = inside & mask_seen(lens, source).opens(xi, eta)
+    xi, eta = xi[inside], eta[inside]
+    waves = displayed_opd(lens, source, xi, eta)
+    passed = pencil(lens, source, xi, eta, clip=clip).passed & np.isfinite(waves)
+    assert passed.mean() > 0.1
+    assert found.rms == pytest.approx(rms_about_plane(waves[passed], xi[passed], eta[passed]), rel=0.03)
