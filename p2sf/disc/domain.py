@@ -73,10 +73,6 @@ class PupilDomain:
         """Return some ``count`` directions to half a turn, each once: those of the ends `between`, and even steps."""
         return np.append(_steps(corners, count), corners[-1])
 
-    def closed(self, xi: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return a curve that is known over the domain, from +η towards +ξ, once around."""
-        return np.append(xi, -xi[-2:0:-1]), np.append(eta, eta[-2:0:-1])
-
     def over(self, nodes: "ClearNodes") -> "ClearNodes":
         """Return nodes that are known over half the disc, or over all of it, over the domain."""
         return nodes
@@ -158,10 +154,6 @@ class WholeDisc(PupilDomain):
     def middle(self, xi: np.ndarray, eta: np.ndarray) -> tuple[float, float]:
         """Return the middle of points, wherever it lies."""
         return float(xi.mean()), float(eta.mean())
-
-    def closed(self, xi: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the curve."""
-        return xi, eta
 
     def over(self, nodes: "ClearNodes") -> "ClearNodes":
         """Return nodes over the whole disc."""
