@@ -105,7 +105,7 @@ WRITERS = {
     ".npz": _write_npz,
     **dict.fromkeys((".tiff", ".tif"), _write_tiff),
     ".csv": _write_csv,
-    ".fits": _write_fits,
+    **dict.fromkeys(FITS, _write_fits),
     ".png": _write_png,
 }
 READERS = {

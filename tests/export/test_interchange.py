@@ -23,6 +23,7 @@ from p2sf.export.iset import IsetOptions, polygon_area, ray_trace, write_iset
 from p2sf.export.psf_cube import open_cube, open_database
 from p2sf.export.tiff import write_tiff
 from p2sf.figures.psf_data import facts
+from p2sf.io.fits import FITS
 from p2sf.io.psf_files import write_psf
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.seidel import coefficients
@@ -119,11 +120,12 @@ def test_fits_is_verified_by_astropy(cube, lens, tmp_path):
 
 
 @pytest.mark.filterwarnings("error")
-def test_one_psf_goes_to_fits_and_back_exactly_and_astropy_finds_its_axes(lens, tmp_path):
+@pytest.mark.parametrize("ending", FITS)
+def test_one_psf_goes_to_fits_and_back_exactly_and_astropy_finds_its_axes(lens, tmp_path, ending):
     from astropy.io import fits
 
     psf = seidel_psf(coefficients(lens, np.inf, 0.2, 0.55), 24, 1.5)
-    path = write_psf(psf, tmp_path / "one.fits", {"note": "long enough for a second card " * 9})
+    path = write_psf(psf, tmp_path / f"one{ending}", {"note": "long enough for a second card " * 9})
     again, meta = read_psf(path)
     np.testing.assert_array_equal(again.values, psf.values)
     assert str(again.sampling) == str(psf.sampling)
