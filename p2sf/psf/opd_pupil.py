@@ -17,7 +17,7 @@ from p2sf.disc.domain import WHOLE, ClearNodes
 from p2sf.disc.quadrature import cell_areas, even_count
 from p2sf.disc.zernike_terms import ZernikeOrder, zernike_terms, zernike_values
 from p2sf.errors import RequestError, SamplingError
-from p2sf.figures.energy import EncircledLight, circles_of, energy_on_circles, radius_of
+from p2sf.figures.energy import EncircledLight, circles_of, energy_on_circles, field_of_cells, radius_of
 from p2sf.figures.line_sums import LagSums
 from p2sf.figures.measures import PARTS, Energy, LineSpread, Mtf
 from p2sf.figures.perfect import circle_contrast
@@ -243,14 +243,15 @@ class Pupil:
     @cached_property
     def _energy(self) -> EncircledLight:
         """Return the energy about the centroid up to where the PSF of the cells repeats itself."""
-        clear = self._light_of_cells > 0
-        place = np.pi * centres(len(clear)) * len(clear) / 2
-        x, y = (turns[clear] for turns in np.meshgrid(place, place))
-        top, field = 1 / (2 * self._step), self._field[clear]
-        wave = field * np.exp(1j * (x * self._along_x_centroid + y * self._along_y_centroid) / top)
-        circles = circles_of(even_count(float(np.hypot(x, y).max()) / (2 * np.pi)), WHOLE)
-        even = self._light - float(np.vdot(field, field).real)  # of cells that let a part of their light through
-        return energy_on_circles((x, y, wave), circles, top, self._step**2 / self._light, even)
+        place = np.pi * centres(len(self._field)) * len(self._field) / 2
+        top, centroid = 1 / (2 * self._step), (self._along_x_centroid, self._along_y_centroid)
+        across, up = (np.exp(1j * place * distance / top) for distance in centroid)
+        reach = np.hypot(place, place[:, None])[self._light_of_cells > 0].max()
+        circles = circles_of(even_count(float(reach) / (2 * np.pi)), WHOLE)
+        # What cells bring that let a part of their light through.
+        even = self._light - float(np.vdot(self._field, self._field).real)
+        field = field_of_cells(self._field * across * up[:, None], circles)
+        return energy_on_circles(field, circles, top, self._step**2 / self._light, even)
 
     def _check_reach(self, name: str, values: np.ndarray, most: float) -> None:
         if np.abs(values).max(initial=0.0) > most * (1 + 1e-9):

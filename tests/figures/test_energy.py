@@ -1,9 +1,11 @@
 """Encircled energy of all light, against Rayleigh's closed form, geometry, and the light in windows of known share."""
 
+import tracemalloc
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from numpy.polynomial.chebyshev import chebval
 from numpy.polynomial.legendre import Legendre, leggauss
 from scipy.fft import dct
 from scipy.optimize import brentq
@@ -222,3 +224,17 @@ def test_the_quoted_radii_hold_their_shares(field):
 def test_sums_of_cosines_are_those_of_scipy():
     values = np.random.default_rng(4).normal(size=41)
     np.testing.assert_allclose(energy._cosine_sums(values), dct(values, type=2), atol=1e-13)
+
+
+def test_a_series_at_many_angles_is_numpys_and_takes_little_memory():
+    """All terms at all radii would be 400 MB. Rounding: k·φ reaches 700 radians, of terms whose sizes add up to 3."""
+    series = np.random.default_rng(5).normal(size=232) / np.arange(1, 233) ** 1.5
+    angle = np.linspace(0, np.pi, 200_000)
+    tracemalloc.start()
+    try:
+        found = energy.EncircledLight(series, 50.0).within(25 * (1 + np.cos(angle)))
+        most = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert found.size == angle.size and most < 50e6
+    np.testing.assert_allclose(energy._cosine_series(series, angle), chebval(np.cos(angle), series), atol=1e-12)
