@@ -44,6 +44,7 @@ DIVIDED, DIVISIONS = 2, 64  # times, into parts: a step of 1/4096, over which th
 JUDGED = 180.0  # waves of slope, to which a pupil is scaled where both roads are compared
 COMPARED = 64  # radii
 AT_ONCE = 2**14  # cosines, so that a block stays in the cache
+POINTS_AT_ONCE = 2**22  # of circles, each block with an FFT of its own
 
 
 @dataclass(frozen=True, eq=False)
@@ -173,18 +174,18 @@ def landing_energy(
     top = waves / half
     x, y = (_turns(place * side * top) for place, side in ((x, pupil.half_x), (y, pupil.half_y)))
     circles = circles_of(even_count(waves), pupil.domain, (CIRCLES, DIRECTIONS))
-    field = _field_of_nodes(x, y, wave, circles)
-    return energy_on_circles(field, circles, top, pupil.half_x * pupil.half_y / light)
+    square = _square(_field_of_nodes(x, y, wave, circles))
+    return energy_on_circles(square, circles, top, pupil.half_x * pupil.half_y / light)
 
 
 def energy_on_circles(
-    field: np.ndarray, circles: "Circles", top_um: float, scale: float, even: float = 0.0
+    square: np.ndarray, circles: "Circles", top_um: float, scale: float, even: float = 0.0
 ) -> EncircledLight:
-    """Return the energy about 0 of |field|²·scale per µm², (points,) of circles, up to the radius ``top_um``.
+    """Return the energy about 0 of (``square`` + ``even``)·scale per µm², up to the radius ``top_um``.
 
-    ``even``: what is added to the square everywhere.
+    ``square``: of the field at the points of circles, (points,); ``even``: the same everywhere.
     """
-    mean = np.add.reduceat(field.real**2 + field.imag**2, circles.starts, dtype=float) / circles.directions
+    mean = np.add.reduceat(square, circles.starts, dtype=float) / circles.directions
     flux = (mean + even) * circles.radius * (2 * pi * top_um**2 * scale)
     series = _cosine_sums(flux) / flux.size
     series[0] /= 2
@@ -278,13 +279,21 @@ def _field_of_nodes(kx: np.ndarray, ky: np.ndarray, wave: np.ndarray, circles: C
     return field
 
 
-def field_of_cells(cells: np.ndarray, circles: Circles) -> np.ndarray:
-    """Return Σ cells[j, i]·exp(iπ(i·x + j·y)) at the points of circles, (points,), but for phases of modulus 1."""
+def light_of_cells(cells: np.ndarray, circles: Circles) -> np.ndarray:
+    """Return |Σ cells[j, i]·exp(iπ(i·x + j·y))|² at the points of circles, (points,)."""
     import finufft
 
-    how = {"eps": DOUBLE, "isign": 1, "nthreads": 1}
-    field: np.ndarray = finufft.nufft2d2(np.pi * circles.y, np.pi * circles.x, cells, **how)
-    return field
+    light = np.empty(circles.x.size)
+    for start in range(0, light.size, POINTS_AT_ONCE):
+        some = slice(start, start + POINTS_AT_ONCE)
+        x, y = np.pi * circles.x[some], np.pi * circles.y[some]
+        light[some] = _square(finufft.nufft2d2(y, x, cells, eps=DOUBLE, isign=1, nthreads=1))
+    return light
+
+
+def _square(field: np.ndarray) -> np.ndarray:
+    square: np.ndarray = field.real**2 + field.imag**2
+    return square
 
 
 Nodes = tuple[np.ndarray, np.ndarray, np.ndarray, float]

@@ -17,7 +17,7 @@ from p2sf.disc.domain import WHOLE, ClearNodes
 from p2sf.disc.quadrature import cell_areas, even_count
 from p2sf.disc.zernike_terms import ZernikeOrder, zernike_terms, zernike_values
 from p2sf.errors import RequestError, SamplingError
-from p2sf.figures.energy import EncircledLight, circles_of, energy_on_circles, field_of_cells, radius_of
+from p2sf.figures.energy import EncircledLight, circles_of, energy_on_circles, light_of_cells, radius_of
 from p2sf.figures.line_sums import LagSums
 from p2sf.figures.measures import PARTS, Energy, LineSpread, Mtf
 from p2sf.figures.perfect import circle_contrast
@@ -250,8 +250,8 @@ class Pupil:
         circles = circles_of(even_count(float(reach) / (2 * np.pi)), WHOLE)
         # What cells bring that let a part of their light through.
         even = self._light - float(np.vdot(self._field, self._field).real)
-        field = field_of_cells(self._field * across * up[:, None], circles)
-        return energy_on_circles(field, circles, top, self._step**2 / self._light, even)
+        square = light_of_cells(self._field * across * up[:, None], circles)
+        return energy_on_circles(square, circles, top, self._step**2 / self._light, even)
 
     def _check_reach(self, name: str, values: np.ndarray, most: float) -> None:
         if np.abs(values).max(initial=0.0) > most * (1 + 1e-9):

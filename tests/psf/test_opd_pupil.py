@@ -11,6 +11,7 @@ import p2sf
 from p2sf.disc.quadrature import cell_areas
 from p2sf.disc.zernike_terms import zernike_terms, zernike_values
 from p2sf.errors import P2SFError
+from p2sf.figures.energy import POINTS_AT_ONCE
 
 NA, NM = 0.1, 500.0
 PER_UM = NA / (NM / 1000)  # cycles per µm at the rim
@@ -116,8 +117,10 @@ def test_cells_with_an_amplitude_are_summed_one_by_one():
     np.testing.assert_allclose(found.sagittal, np.abs(sums) / abs(sums[0]), atol=1e-12)
 
 
-def test_energy_of_cells_is_the_sum_over_all_pairs():
+@pytest.mark.parametrize("points", [20_001, POINTS_AT_ONCE])
+def test_energy_of_cells_is_the_sum_over_all_pairs(monkeypatch, points):
     """Each pair of cells ν apart brings R·J₁(2πR|ν|)/|ν| of its light within R; cells beyond the disc count too."""
+    monkeypatch.setattr("p2sf.figures.energy.POINTS_AT_ONCE", points)
     rng = np.random.default_rng(3)
     light, wave = np.zeros((SIZE, SIZE)), rng.uniform(-0.2, 0.2, (SIZE, SIZE))
     light[rng.integers(0, SIZE, (2, 60)).tolist()] = 1
