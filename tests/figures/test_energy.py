@@ -16,7 +16,7 @@ from p2sf.disc.domain import WHOLE
 from p2sf.disc.mask import CLEAR, PupilMask
 from p2sf.errors import GeometryError
 from p2sf.figures import energy
-from p2sf.figures.energy import landing_energy, landing_points
+from p2sf.figures.energy import energy_of, landing_energy, landing_points
 from p2sf.figures.frequency_pupil import pupil_of_coefficients, pupil_of_rays
 from p2sf.lens.lens import with_aim
 from p2sf.lens.source import Source
@@ -44,6 +44,17 @@ def test_wings_that_are_not_summed_fall_with_the_radius():
     outside = 1 - energy_in([pupil], "seidel", radius, wings=True).fraction
     assert outside * radius == pytest.approx([outside[0] * radius[0]] * 3, rel=1e-9)
     assert outside == pytest.approx(1 - circle_energy(radius / UNIT), rel=0.02)
+
+
+@pytest.mark.parametrize("w40", [0.5, 700.0], ids=["waves", "landing points"])
+def test_the_energy_about_a_point_beside_a_round_picture_is_that_about_one_above_it(w40):
+    """Turned, since the half of a pupil that is mirrored in η knows no point beside its plane of symmetry."""
+    pupil = pupil_of_coefficients(waves(w40=w40), turn_deg=45.0)
+    radius, far = UNIT * np.linspace(1.0, 4.0, 7) * max(1.0, w40), 2 * UNIT * max(1.0, w40)
+    beside, above = (energy_of(pupil, *at).within(radius) for at in ((0.0, far), (far, 0.0)))
+    np.testing.assert_allclose(beside, above, atol=2e-4)
+    if w40 < 1:
+        assert beside[0] < energy_of(pupil).within(radius[:1])[0] - 0.3
 
 
 def axial_radius_um(figures, share: float) -> float:
