@@ -2,6 +2,7 @@
 
 from collections.abc import Collection
 
+from p2sf.errors import P2SFError
 from p2sf_explorer.compute.setup import default_state
 from p2sf_explorer.state.state import Optics, State
 
@@ -16,10 +17,18 @@ def differing(state: State) -> set[str]:
         SHIFT: bool(optics.sensor_shift_um),
         SHAPE: bool(optics.mask) or state.display.show_pupil_shape,
         STOP: optics.stop != USUAL.stop or optics.clip,
-        AIM: optics.aim != default_state(optics.lens, optics.lens_text).optics.aim,
+        AIM: optics.aim != _own_aim(optics),
         METHOD: not optics.automatic or optics.tolerance != USUAL.tolerance,
     }
     return {part for part, differs in asked.items() if differs}
+
+
+def _own_aim(optics: Optics) -> str:
+    """Return how rays fill the pupil by the lens file; the usual way for one that the banner says cannot be read."""
+    try:
+        return default_state(optics.lens, optics.lens_text).optics.aim
+    except P2SFError:
+        return USUAL.aim
 
 
 class Fold:
