@@ -13,7 +13,6 @@ from p2sf_explorer.compute.setup import default_state
 from p2sf_explorer.lessons.lesson import FOLDER, read_lesson
 from p2sf_explorer.state.limits import MASK
 from p2sf_explorer.state.state import change
-from tests.support.windows.windows import at_rest
 
 CLICKED = QAbstractButton, QComboBox, QLineEdit, QAbstractSlider, QTabBar
 
@@ -124,6 +123,4 @@ def test_the_slider_that_a_page_is_about_is_in_view(folded, qtbot, size):
     row = folded.controls.rows["sensor_shift_um"]
     for number in (n for n, step in enumerate(lesson.steps) if step.move == "sensor_shift_um"):
         folded.store.replace(lesson.state(number, change(folded.store.state, show_more=False)))
-        at_rest(folded, qtbot)
-        qtbot.wait(20)  # the column scrolls once it is laid out
-        assert not row.slider.visibleRegion().isEmpty(), number
+        qtbot.waitUntil(lambda: not row.slider.visibleRegion().isEmpty())  # the column scrolls once it is laid out
