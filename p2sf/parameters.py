@@ -1,6 +1,5 @@
 """Parameters that a user may set, each declared once: name, unit and range, flag and control, and wording."""
 
-import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import inf, isfinite
@@ -22,7 +21,6 @@ LARGEST_SIDE = 2**12  # samples along each side of a PSF or a transform: 128 MiB
 LONGEST_PATH_UM = 1e6  # a metre: steeper than any real phase plate, and far below the overflow of slopes
 INFINITE = "{parameter} is {value:g}{unit}; give a positive number, inf allowed"
 FINITE = "{parameter} is {value:g}{unit}; give a positive finite number"
-UNIT = re.compile(r"_(um|mm|nm|deg)$")  # at the end of a parameter's name
 FARTHER = "{parameter} is {value:g}{unit}, but rays from beyond {most:g} mm are in effect parallel; give inf"
 
 
@@ -36,9 +34,9 @@ COMMAND_LINE = Style(parameter=flag)
 
 
 def control(name: str) -> str:
-    """Return the English label of a parameter's control; without a control, its name in words and without the unit."""
+    """Return the English label of a parameter's control; without a control, the parameter's name in words."""
     found = PARAMETERS.get(name)
-    return found.control if found else UNIT.sub("", name).replace("_", " ")
+    return found.control if found else name.replace("_", " ")
 
 
 def unit_behind(name: str) -> str:

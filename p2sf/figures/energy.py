@@ -99,7 +99,8 @@ def energy_of(
 ) -> "EncircledLight | LandingPoints":
     """Return the energy of a pupil about (``aside_um``, ``centre_um``), its centroid if not given.
 
-    ``radius_um``: the largest that is asked for.
+    ``radius_um``: the largest that is asked for. Of a pupil of which one half is known, and the other mirrored, the
+    light is mirrored too, and the point lies on its axis.
     """
     centre = pupil.centroid_um if centre_um is None else centre_um
     aside = pupil.centroid_x_um if aside_um is None else aside_um

@@ -335,10 +335,9 @@ def _orthonormal(terms: Callable[[np.ndarray, np.ndarray], np.ndarray], nodes: C
 
 def _figure_nodes(mask: PupilMask, known: MapTerms, clear: OpenPart | None) -> ClearNodes:
     """Return nodes over what is open, of positive weights, over which figures are those of least squares."""
-    if clear is None and mask.clear:
-        return known.domain.nodes(RAYS[known.quality])
     if clear is None:
-        plain = known.domain.over(mask_nodes(mask, *RAYS[known.quality]))
+        counts = RAYS[known.quality]
+        plain = known.domain.nodes(counts) if mask.clear else known.domain.over(mask_nodes(mask, *counts))
         if (plain.weight > 0).all():
             return plain
     part = clear or replace(WHOLE_DISC, domain=known.domain)

@@ -236,8 +236,7 @@ class Display:
     light of the colour PSF (`p2sf.colour.spectrum`). ``language`` is a file of ``i18n/languages``, "en", or "system";
     ``colours`` are those of the heat maps.
     ``show_more``: whether the controls are unfolded that a first look does not need, ``show_pupil_shape``: those of the
-    pupil mask; ``full_bleed``: whether the PSF runs
-    under its own axes, to the edges of its panel.
+    pupil mask; ``full_bleed``: whether the PSF runs under its own axes, to the edges of its panel.
     ``rays_coloured`` and ``rays_count`` are of the layout (`p2sf_explorer.compute.layout.layout`); ``keep_focus`` says
     what the sensor follows while the lens is edited: "paraxial" or "rms" focus, or "off". ``exaggerated``: the factor
     by which the drawings enlarge the tilts and decentres of ``errors``; ``show_field_x``: the field along x has a

@@ -93,7 +93,8 @@ def asked(state: State, limits: Ranges) -> bool:
     return limits.both_sides or state.display.show_field_x or bool(state.optics.field_x_deg)
 
 
-ABOVE = {each.key: each for each in (*RING_QUANTITIES, *SOURCE_QUANTITIES) if each is not SHIFT}  # the fold
+# The quantities above the fold, by their keys.
+ABOVE = {each.key: each for each in (*RING_QUANTITIES, *SOURCE_QUANTITIES) if each is not SHIFT}
 MORE_TIP = (
     "Sensor shift, pupil shape, stop, rims, how rays fill the pupil, method and accuracy. What differs from the lens "
     "file, or from the usual method, is always shown."

@@ -5,6 +5,7 @@ import pytest
 from PySide6.QtGui import QImage
 
 from p2sf.errors import P2SFError
+from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.compute.framing import light_circle
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.course.lectures import FOLDER as COURSE_FOLDER
@@ -12,6 +13,7 @@ from p2sf_explorer.lessons.changes import LessonError, apply_changes, read_chang
 from p2sf_explorer.lessons.lesson import FOLDER as LESSON_FOLDER
 from p2sf_explorer.lessons.lesson import lesson_files, read_lesson
 from p2sf_explorer.lessons.making.recording import written_changes
+from p2sf_explorer.state.limits import HOLDABLE
 from p2sf_explorer.state.link import link, state_of_link
 from p2sf_explorer.state.state import State, change, new_state
 from p2sf_explorer.store.store import Store
@@ -159,6 +161,12 @@ def test_a_held_scale_is_written_and_read_back():
 def test_a_scale_that_cannot_be_held_is_a_sentence(wrong, said):
     with pytest.raises(LessonError, match=said):
         read_changes(f"held_scales {wrong}", 1, "")
+
+
+def test_every_panel_whose_scale_can_be_held_has_one_chart_to_hold(window):
+    for key in HOLDABLE:
+        window.open_panel(key)
+        assert len(window.panels[key].widget.findChildren(Chart)) == 1, key
 
 
 @pytest.mark.parametrize("wrong", [30.0, ("psf", 30.0), (("psf", "30"),), (("psf", 30.0, 1.0),)])
