@@ -21,7 +21,7 @@ from p2sf.lens.lens import Lens, Surface, seen_from
 from p2sf.lens.source import Source
 from p2sf.raytrace.aiming import Sources, pupil_rays, start
 from p2sf.raytrace.pencil import hexapolar
-from p2sf.raytrace.surface import BESIDE, Status, circle_room, ended_at, stop_in_the_dark
+from p2sf.raytrace.surface import BESIDE, Beam, Status, circle_room, ended_at, rooms, stop_in_the_dark
 from p2sf.raytrace.trace import lens_rims, run
 
 SEARCH_RINGS = 12
@@ -258,7 +258,7 @@ def trace_rooms(lens: Lens, source: Source | Sources, xi: np.ndarray, eta: np.nd
 
     def visit(number: int) -> None:
         if number <= len(lens.surfaces):
-            for label, room in _rooms_of(lens.surfaces[number - 1], float(limits[number - 1]), beam.x, beam.y):
+            for label, room in _rooms_of(lens.surfaces[number - 1], float(limits[number - 1]), beam):
                 labels.append(number + label)
                 found.append(room)
 
@@ -268,18 +268,13 @@ def trace_rooms(lens: Lens, source: Source | Sources, xi: np.ndarray, eta: np.nd
     return Rooms(tuple(labels), np.stack(found, axis=-2) if found else np.empty(shape), whole)
 
 
-def _rooms_of(surface: Surface, limit: float, x: np.ndarray, y: np.ndarray) -> list[tuple[int, np.ndarray]]:
-    """Return the rooms at a surface's circle or at both sides of its rectangle, and at its hole, with their labels."""
-    rim = surface.rim
-    across, up = rim.about_centre(x, y) if rim else (x, y)
-    square, found = across * across + up * up, []
-    if rim and rim.half_widths:
-        wide, high = rim.half_widths
-        found += [(BESIDE, 1 - (across / wide) ** 2), (0, 1 - (up / high) ** 2)]
-    elif np.isfinite(limit):
-        found.append((0, 1 - square / limit**2))
+def _rooms_of(surface: Surface, limit: float, beam: Beam) -> list[tuple[int, np.ndarray]]:
+    """Return the rooms of a surface, its hole's last, and by how much what they end differs from its number."""
+    found = []
+    if np.isfinite(limit) or (surface.rim and surface.rim.half_widths):
+        found += [(BESIDE * (why == Status.CLIPPED_BESIDE), room) for why, room in rooms(beam, limit, surface.rim)]
     if surface.inner_radius:
-        found.append((HOLE, square / surface.inner_radius**2 - 1))
+        found.append((HOLE, -circle_room(beam, surface.inner_radius, surface.rim)))
     return found
 
 

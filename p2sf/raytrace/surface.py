@@ -391,11 +391,11 @@ def stop_in_the_dark(beam: Beam) -> None:
 
 
 def rooms(beam: Beam, radius: float, rim: Rim | None) -> tuple[tuple[Status, np.ndarray], ...]:
-    """Return how far inside a rim rays land, as a share of its radius squared or half-widths, and what stops others."""
+    """Return how far inside a rim rays land, a share of its radius or half-width squared, and what stops others."""
     if not (rim and rim.half_widths):
         return ((Status.CLIPPED, circle_room(beam, radius, rim)),)
     (x, y), (wide, high) = rim.about_centre(beam.x, beam.y), rim.half_widths
-    return (Status.CLIPPED_BESIDE, (wide - np.abs(x)) / wide), (Status.CLIPPED, (high - np.abs(y)) / high)
+    return (Status.CLIPPED_BESIDE, 1 - np.square(x / wide)), (Status.CLIPPED, 1 - np.square(y / high))
 
 
 def circle_room(beam: Beam, radius: float, rim: Rim | None) -> np.ndarray:
