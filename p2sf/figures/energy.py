@@ -22,9 +22,9 @@ from p2sf.disc.domain import PupilDomain
 from p2sf.disc.phasors import cosine_sine
 from p2sf.disc.quadrature import MOST_KEPT, even_count, gauss_legendre
 from p2sf.errors import SamplingError
-from p2sf.figures.frequency_pupil import FrequencyPupil, landing_um, reach_of
 from p2sf.figures.mask_edges import box_edges, slope_waves
 from p2sf.figures.transfer import columns_of
+from p2sf.pupil.frequency_pupil import FrequencyPupil, landing_um, reach_of
 
 RADII = 128  # of a tabulated curve
 BEYOND = 6.0  # λ/NA beyond the outermost ray up to which light is summed; farther out there are the wings of an edge

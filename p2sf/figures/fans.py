@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM
-from p2sf.figures.spot import mask_of_rays
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
+from p2sf.pupil.landing import mask_of_rays
 from p2sf.raytrace.aiming import Sources
 from p2sf.raytrace.pencil import Rays, exit_radius, opd_on_sphere, pencil
 

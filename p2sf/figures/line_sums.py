@@ -14,7 +14,7 @@ from numpy.polynomial.chebyshev import chebvander
 
 from p2sf.disc.phasors import cosine_sine
 from p2sf.errors import Cancelled
-from p2sf.figures.frequency_pupil import FrequencyPupil
+from p2sf.pupil.frequency_pupil import FrequencyPupil
 from p2sf.threads import never
 
 AT_ONCE = 2**14  # samples of the lines in one block, so that a block stays in the cache

@@ -8,7 +8,7 @@ from numpy.polynomial.chebyshev import chebder, chebvander
 
 from p2sf.disc.mask import mask_slopes
 from p2sf.errors import GeometryError
-from p2sf.figures.frequency_pupil import UNFOLLOWED, FrequencyPupil
+from p2sf.pupil.frequency_pupil import UNFOLLOWED, FrequencyPupil
 
 NEWTON_STEPS, NEWTON_ENOUGH = 12, 1e-10  # of the rim's radius
 NEWTON_LEAST = 1e-5  # and above which contrast is less accurate than the handbook states

@@ -19,10 +19,10 @@ from p2sf.disc.open_part import open_intervals, places_between
 from p2sf.disc.phasors import phasor_powers
 from p2sf.disc.quadrature import even_count
 from p2sf.errors import SamplingError
-from p2sf.figures.frequency_pupil import FrequencyPupil, reach_of, uniform_disc
 from p2sf.figures.line_sums import Lines, Stop, line_sums
 from p2sf.figures.mask_edges import box_edges, slope_waves
 from p2sf.figures.perfect import circle_contrast
+from p2sf.pupil.frequency_pupil import FrequencyPupil, reach_of, uniform_disc
 from p2sf.threads import never
 
 MOST_SAMPLES = 2**25  # of all lines: slopes of some 1500 waves, seconds of work

@@ -20,7 +20,16 @@ from p2sf.conventions import UM_PER_MM
 from p2sf.disc.mask import CLEAR
 from p2sf.errors import GeometryError, RequestError
 from p2sf.figures.energy import EncircledLight, LandingPoints, energy_of, radius_of
-from p2sf.figures.frequency_pupil import (
+from p2sf.figures.measures import PARTS, Energy, LineSpread, Mtf
+from p2sf.lens.lens import Lens
+from p2sf.lens.source import Source
+from p2sf.messages import Alternatives
+from p2sf.paraxial.seidel import Coefficients, check_seidel, coefficients
+from p2sf.psf.methods import AUTO, choose, seidel_error
+from p2sf.psf.prediction import SAFETY
+from p2sf.psf.seidel import check_image
+from p2sf.pupil.fit import fit
+from p2sf.pupil.frequency_pupil import (
     WHOLE_PUPIL,
     FrequencyPupil,
     PupilAtRims,
@@ -31,15 +40,6 @@ from p2sf.figures.frequency_pupil import (
     rotate_frequencies,
     with_spot,
 )
-from p2sf.figures.measures import PARTS, Energy, LineSpread, Mtf
-from p2sf.lens.lens import Lens
-from p2sf.lens.source import Source
-from p2sf.messages import Alternatives
-from p2sf.paraxial.seidel import Coefficients, check_seidel, coefficients
-from p2sf.psf.methods import AUTO, choose, seidel_error
-from p2sf.psf.prediction import SAFETY
-from p2sf.psf.seidel import check_image
-from p2sf.pupil.fit import fit
 from p2sf.pupil.seen_mask import mask_seen
 from p2sf.raytrace.exit_sphere import exit_sphere
 from p2sf.threads import never, one_blas_thread

@@ -1,6 +1,6 @@
 """The contrast (MTF) of many builds at one frequency: the autocorrelation of their pupils at a fixed set of points.
 
-With D(f) the density of rays over frequencies f = n'K/λ and w their phase (see `p2sf.figures.frequency_pupil`),
+With D(f) the density of rays over frequencies f = n'K/λ and w their phase (see `p2sf.pupil.frequency_pupil`),
 
     OTF(ν) = ∫ D(f)·D(f − ν)·exp(2πi(w(f) − w(f − ν))) df / ∫ D² df
 

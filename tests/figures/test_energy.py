@@ -17,13 +17,13 @@ from p2sf.disc.mask import CLEAR, PupilMask
 from p2sf.errors import GeometryError
 from p2sf.figures import energy
 from p2sf.figures.energy import energy_of, landing_energy, landing_points
-from p2sf.figures.frequency_pupil import pupil_of_coefficients, pupil_of_rays
 from p2sf.lens.lens import with_aim
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.measures import PupilPart, energy_in
 from p2sf.psf.traced import traced_psf
+from p2sf.pupil.frequency_pupil import pupil_of_coefficients, pupil_of_rays
 from tests.support.airy import circle_energy
 from tests.support.rays.ray_figures import ray_figures
 from tests.support.waves import NA, WAVELENGTH_UM, waves

@@ -10,7 +10,6 @@ from scipy.special import j1
 
 from p2sf.disc.domain import WHOLE
 from p2sf.disc.mask import PupilMask
-from p2sf.figures.frequency_pupil import pupil_of_coefficients, pupil_of_rays
 from p2sf.figures.transfer import otf_slices
 from p2sf.lens.lens import with_mask
 from p2sf.lens.source import Source
@@ -18,6 +17,7 @@ from p2sf.lensfile.library import find_lens
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.measures import PupilPart, energy_in, mtf_of, parts_of, spread_of
 from p2sf.psf.seidel import seidel_psf
+from p2sf.pupil.frequency_pupil import pupil_of_coefficients, pupil_of_rays
 from tests.pupil.test_open_part import circles_apart
 from tests.support.waves import NA, WAVELENGTH_UM, waves
 

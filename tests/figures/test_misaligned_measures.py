@@ -11,7 +11,6 @@ from p2sf.colour.spectrum import spectrum_of
 from p2sf.disc.domain import WHOLE
 from p2sf.disc.mask import PupilMask
 from p2sf.figures.energy import landing_energy
-from p2sf.figures.frequency_pupil import uniform_disc
 from p2sf.figures.perfect import circle_contrast
 from p2sf.figures.transfer import otf_slices
 from p2sf.glass.media import MIRROR
@@ -23,6 +22,7 @@ from p2sf.lensfile.library import find_lens
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.measures import PupilPart, energy_in, mtf_of, parts_of, spread_of
 from p2sf.psf.polychromatic import chief_places_um, colour_psf, suitable_pitch_um
+from p2sf.pupil.frequency_pupil import uniform_disc
 from tests.support.airy import circle_energy
 
 FREQUENCIES = np.array([0.0, 5.0, 10.0, 20.0, 40.0, 80.0])

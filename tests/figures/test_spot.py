@@ -10,12 +10,13 @@ from numpy.polynomial.legendre import leggauss
 from p2sf.conventions import UM_PER_MM
 from p2sf.disc.mask import PupilMask
 from p2sf.errors import GeometryError
-from p2sf.figures.spot import landing, spot
+from p2sf.figures.spot import spot
 from p2sf.lens.lens import with_aim, with_sensor
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.first_order import image_distance
 from p2sf.psf.measures import energy_in, parts_of
+from p2sf.pupil.landing import landing
 from p2sf.raytrace.aiming import Sources
 from p2sf.raytrace.pencil import pencil
 from tests.support.rays.pencils import one_surface

@@ -6,7 +6,6 @@ from scipy.special import roots_legendre
 
 import p2sf
 from p2sf.errors import Cancelled, GeometryError, SamplingError
-from p2sf.figures.frequency_pupil import pupil_of_coefficients, pupil_of_fit, pupil_of_rays
 from p2sf.figures.line_sums import END, end_weights, line_sums
 from p2sf.figures.perfect import diffraction_mtf
 from p2sf.figures.transfer import OtfSlice, columns_of, otf_slices, slice_along_y
@@ -17,6 +16,7 @@ from p2sf.psf import measures
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.measures import PupilPart, mtf_of, spread_of
 from p2sf.pupil.fit import fit
+from p2sf.pupil.frequency_pupil import pupil_of_coefficients, pupil_of_fit, pupil_of_rays
 from tests.support.overlap import overlap
 from tests.support.tiers import in_tiers
 from tests.support.waves import NA, WAVELENGTH_UM, waves

@@ -10,8 +10,6 @@ import p2sf
 from p2sf.conventions import centred_axis
 from p2sf.disc.mask import PupilMask
 from p2sf.errors import RequestError
-from p2sf.figures.frequency_pupil import pupil_of_coefficients
-from p2sf.figures.spot import landing
 from p2sf.figures.transfer import otf_slices
 from p2sf.lens.lens import Aperture, Lens, Surface, with_mask
 from p2sf.lens.misalignment import displaced
@@ -22,6 +20,8 @@ from p2sf.psf.geometric import geometric_psf
 from p2sf.psf.measures import PupilPart, energy_in
 from p2sf.psf.methods import PsfOptions, render
 from p2sf.psf.seidel import seidel_psf
+from p2sf.pupil.frequency_pupil import pupil_of_coefficients
+from p2sf.pupil.landing import landing
 from tests.pupil.test_open_part import circles_apart
 from tests.support.masked_sum import masked_sum
 from tests.support.tiers import in_tiers

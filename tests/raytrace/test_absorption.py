@@ -12,7 +12,6 @@ from p2sf.cli import main
 from p2sf.colour.spectrum import spectrum_of
 from p2sf.disc.quadrature import whole_disc
 from p2sf.errors import GeometryError, GlassError
-from p2sf.figures.spot import landing
 from p2sf.glass.media import ConstantIndex, ShiftedIndex
 from p2sf.glass.transmittance import InternalTransmittance
 from p2sf.lens.lens import Aperture, Lens, Surface, with_absorption
@@ -28,6 +27,7 @@ from p2sf.paraxial.seidel import coefficients
 from p2sf.pixel_kernels.illumination import light_collected
 from p2sf.psf.geometric import geometric_psf
 from p2sf.psf.polychromatic import bands_through
+from p2sf.pupil.landing import landing
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.trace import trace
 

@@ -8,7 +8,6 @@ import pytest
 from p2sf.disc.mask import PupilMask
 from p2sf.disc.quadrature import whole_disc
 from p2sf.errors import GeometryError, RequestError
-from p2sf.figures.frequency_pupil import pupil_of_rays
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, indices, with_f_number, with_mask, with_sensor
 from p2sf.lens.placement import Placement
@@ -16,6 +15,7 @@ from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.psf.measures import PupilPart, mtf_of
 from p2sf.psf.methods import render
+from p2sf.pupil.frequency_pupil import pupil_of_rays
 from p2sf.raytrace.aiming import pupil_rays
 from p2sf.raytrace.pencil import pencil
 from p2sf.raytrace.trace import trace

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from p2sf.figures.energy import blur_waves
-from p2sf.figures.frequency_pupil import pupil_of_coefficients, pupil_of_rays
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients
+from p2sf.pupil.frequency_pupil import pupil_of_coefficients, pupil_of_rays
 from p2sf.pupil.seen_mask import mask_seen
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.sampled import by_coefficients

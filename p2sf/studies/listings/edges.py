@@ -13,12 +13,12 @@ from typing import Any
 import numpy as np
 
 from p2sf.errors import GeometryError
-from p2sf.figures.spot import landing
 from p2sf.glass.media import AIR, ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface, with_sensor
 from p2sf.lens.source import Source
 from p2sf.pixel_kernels.illumination import relative_illumination
 from p2sf.pixel_kernels.sensor_points import sensor_map
+from p2sf.pupil.landing import landing
 from p2sf.studies.listings.row import ListedNumber, numbers_of
 
 UM = 0.55

@@ -7,9 +7,9 @@ import numpy as np
 
 from p2sf.conventions import UM_PER_MM
 from p2sf.errors import P2SFError
-from p2sf.figures.spot import RINGS, landing
 from p2sf.lens.lens import seen_from
 from p2sf.paraxial.depth_of_field import AxialBlur
+from p2sf.pupil.landing import RINGS, landing
 from p2sf.raytrace.pencil import Sources
 from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.ranges import closest_distance

@@ -7,12 +7,12 @@ import pytest
 
 from p2sf.disc.quadrature import disc_nodes
 from p2sf.errors import GeometryError
-from p2sf.figures import frequency_pupil
-from p2sf.figures.frequency_pupil import FrequencyPupil, pupil_of_rays
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.psf.measures import energy_in, mtf_of, parts_of
+from p2sf.pupil import frequency_pupil
+from p2sf.pupil.frequency_pupil import FrequencyPupil, pupil_of_rays
 from p2sf.raytrace.pencil import pencil
 
 POINT = Source(field_deg=17.1)

@@ -25,13 +25,13 @@ from p2sf.disc.domain import HALF, WHOLE, ClearNodes, PupilDomain
 from p2sf.disc.mask import CLEAR, PupilMask
 from p2sf.disc.open_part import WHOLE_DISC, OpenPart
 from p2sf.errors import GeometryError
-from p2sf.figures.spot import Landing, landing
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.pupil.clear_curves import clear_curve
 from p2sf.pupil.fit import FittedPencil
+from p2sf.pupil.landing import Landing, landing
 from p2sf.pupil.seen_mask import mask_seen
 from p2sf.pupil.smooth_pupil import all_reach
 from p2sf.pupil.spherical_waves import beyond_plane_waves
