@@ -53,8 +53,8 @@ from p2sf.measure.single_psf import fit_psf as fit_psf
 from p2sf.named_arrays import NamedArrays as NamedArrays
 from p2sf.paraxial.positions import lens_at as lens_at
 from p2sf.paraxial.seidel import Coefficients as Coefficients
+from p2sf.psf.choosing import Choice as Choice
 from p2sf.psf.from_opd import psf_of_opd as psf_of_opd
-from p2sf.psf.methods import Choice as Choice
 from p2sf.psf.opd_pupil import Pupil as Pupil
 from p2sf.psf.opd_pupil import fit_zernike as fit_zernike
 from p2sf.psf.reading import read_psf as read_psf

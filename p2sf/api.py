@@ -24,8 +24,8 @@ from p2sf.threads import using_threads
 if TYPE_CHECKING:
     from p2sf.disc.zernike_terms import ZernikeOrder
     from p2sf.figures.measures import Energy, LineSpread, Mtf
+    from p2sf.psf.choosing import Choice
     from p2sf.psf.measures import PupilPart
-    from p2sf.psf.methods import Choice
     from p2sf.psf.result import Psf
     from p2sf.pupil.zernike_fit import ZernikeFit
 
@@ -267,7 +267,7 @@ def choose_method(
     >>> p2sf.choose_method(p2sf.load_lens("double_gauss_28"), p2sf.Source(field_deg=10), min_r2=0.99).method
     'fitted'
     """
-    from p2sf.psf.methods import choose
+    from p2sf.psf.choosing import choose
 
     setup = set_up_source(lens, source, camera)
     return choose(setup.lens, setup.source, min_r2, clip)

@@ -420,7 +420,7 @@ def _zernike_of(point: SweepPoint, basis: "ZernikeOrder", terms: int, clip: bool
 
 
 def _choice_of(point: SweepPoint, min_r2: float, clip: bool) -> Figures:
-    from p2sf.psf.methods import choose
+    from p2sf.psf.choosing import choose
 
     return vars(choose(point.setup.lens, point.source, min_r2, clip))
 

@@ -22,7 +22,7 @@ from p2sf.io import psf_plot
 from p2sf.lens.lens import with_aim, with_sensor
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.seidel import coefficients
-from p2sf.psf import methods
+from p2sf.psf import choosing, methods
 from p2sf.psf.pixel_integrals import render_integrated
 from p2sf.setting import Request, set_up, set_up_source
 from tests.support.interpreter import loaded_by
@@ -132,7 +132,7 @@ def test_the_library_and_the_command_line_set_a_lens_up_by_one_road():
     assert mine == theirs
     same = render_integrated(theirs.lens, theirs.source, "seidel", 16)
     np.testing.assert_array_equal(p2sf.render(LENS, source, "seidel", pixels=16, **camera).values, same.values)
-    assert p2sf.choose_method(LENS, source, 0.9, **camera) == methods.choose(theirs.lens, theirs.source, 0.9)
+    assert p2sf.choose_method(LENS, source, 0.9, **camera) == choosing.choose(theirs.lens, theirs.source, 0.9)
 
 
 def test_help_fits_a_screen():

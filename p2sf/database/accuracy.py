@@ -26,8 +26,8 @@ from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message, ParameterName
 from p2sf.paraxial.pupils import Stop
 from p2sf.paraxial.seidel import reason_against_coefficients
-from p2sf.psf.methods import AUTO, FITTED, SEIDEL, by_six, seidel_error
-from p2sf.psf.prediction import ALLOWED, USELESS, predicted_error
+from p2sf.psf.methods import AUTO, FITTED, SEIDEL, by_six
+from p2sf.psf.prediction import ALLOWED, USELESS, predicted_error, seidel_error
 from p2sf.pupil.fit import behind_mask, trace_check_rays
 from p2sf.pupil.seen_mask import mask_seen
 from p2sf.threads import one_blas_thread

@@ -25,8 +25,9 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Alternatives
 from p2sf.paraxial.seidel import Coefficients, check_seidel, coefficients
-from p2sf.psf.methods import AUTO, choose, seidel_error
-from p2sf.psf.prediction import SAFETY
+from p2sf.psf.choosing import choose
+from p2sf.psf.methods import AUTO
+from p2sf.psf.prediction import SAFETY, seidel_error
 from p2sf.psf.seidel import check_image
 from p2sf.pupil.fit import fit
 from p2sf.pupil.frequency_pupil import (

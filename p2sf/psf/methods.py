@@ -1,136 +1,58 @@
-"""All methods behind one function, their predicted errors, and the choice of the cheapest that is accurate enough.
+"""All methods behind one function; `choosing` says which of them "auto" takes."""
 
-How the error is predicted is described in `prediction`. See handbook 5.6.
-"""
-
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from functools import partial
 from math import hypot, inf
 from time import perf_counter
 
 import numpy as np
 
-from p2sf.choice import first_within
 from p2sf.conventions import UM_PER_MM
 from p2sf.disc.mask import PupilMask
 from p2sf.disc.quadrature import SETTLED_TOLERANCE
-from p2sf.errors import GeometryError, P2SFError, RequestError, SamplingError
+from p2sf.errors import P2SFError, RequestError, SamplingError
 from p2sf.figures.compare import flatness_of
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Alternatives, Message
 from p2sf.parameters import check_samples
-from p2sf.paraxial.seidel import Coefficients, check_seidel, coefficients, reason_against_coefficients
+from p2sf.paraxial.seidel import Coefficients, check_seidel, coefficients
+from p2sf.psf.choosing import AUTO_SECONDS, Choice, check_min_r2, choose
 from p2sf.psf.fitted import MOST_NODES as MOST_FITTED
 from p2sf.psf.fitted import NodesOf, psf_of_fit
 from p2sf.psf.gaussian_fit import gaussian_psf
 from p2sf.psf.huygens import MOST_NODES as MOST_RAYS
-from p2sf.psf.huygens import RayPupil, Watch, blur_um2, nodes_from, sum_rays
-from p2sf.psf.prediction import EDGE_ERROR, SAFETY, TRACED_ERROR, USELESS, predicted_error, seidel_sigma
+from p2sf.psf.huygens import RayPupil, Watch, blur_um2, sum_rays
+from p2sf.psf.prediction import EDGE_ERROR, residual_for, seidel_error
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import WINDOW_AIRY_RADII, check_focus, check_image, check_quality, seidel_psf, suitable_pixel_um
 from p2sf.psf.seidel_stack import LARGEST_NODES, as_fit
 from p2sf.psf.spherical import (
     fresnel_number,
-    half_window_um,
-    is_long_comparison,
-    plane_wave_bound,
     plane_wave_error,
     spherical_pupil,
     worth_spherical,
 )
 from p2sf.psf.traced import EDGE_TOLERANCE, traced_psf
 from p2sf.psf.traced import MOST_NODES as MOST_TRACED
-from p2sf.pupil.cost import COLUMN_SECONDS, LAST_PASS, RAY_SECONDS, TABLE_SECONDS, sum_seconds
+from p2sf.pupil.cost import RAY_SECONDS, TABLE_SECONDS, sum_seconds
 from p2sf.pupil.fit import (
-    LEVELS,
-    RESIDUAL_WAVES,
-    CheckRays,
     FittedPencil,
-    behind_mask,
     fit,
-    fit_rays,
-    level_rays,
-    levels_for,
-    trace_check_rays,
 )
 from p2sf.pupil.seen_mask import mask_seen
 from p2sf.pupil.smooth_pupil import all_reach
 from p2sf.pupil.vignetting import pupil_nodes
-from p2sf.raytrace.exit_sphere import exit_sphere
 from p2sf.raytrace.field_geometry import cone
-from p2sf.raytrace.pencil import Rays, pencil, to_the_rim
-from p2sf.raytrace.ray_field import AIRY_RADIUS, Steepness, steepness
+from p2sf.raytrace.pencil import pencil, to_the_rim
+from p2sf.raytrace.ray_field import AIRY_RADIUS
 from p2sf.threads import one_blas_thread
 
 AUTO = "auto"
-BELOW_ONE = 1 - 2.0**-53  # the largest R² that can be required of a choice
 PITCH_RINGS = 8  # of rays, to estimate the extent of the light
-AUTO_SECONDS = 1.0  # that `auto` may take for a sum by its estimate: two passes have to agree, 5 s with all else
 FIELD_SHARE = 0.01  # of the root of the 1 − R² allowed, that a sum of spherical waves may leave of the field
-PLANE_SHARE = 0.9  # of the allowed error that plane waves may use up: spherical ones take fifty times as long as a fit
-PLANE_NODES = 2.0  # times those of spherical waves, more than plane waves of the same blur take
-COMPARED = 2.0  # times their comparison, which holds for 99.7 % of states (python -m tests.long.spherical_prediction)
 ROOM = 1.05  # times the flatness of a first picture, since a better one differs from it
-QUICK_LEVELS = LEVELS[:2]  # fitted to the same 64 rays
-
-
-@dataclass(frozen=True)
-class Choice:
-    """The method to use, its predicted 1 − R², its number of coefficients (0: rays), and the basis of the decision.
-
-    ``tried_rays`` were traced for the choice and ``lost_rays`` of them did not reach the sensor. ``allowed_error`` is
-    the tolerated 1 − R², less that of plane waves where it counts; ``seidel_error`` and ``fitted_error``, that of
-    ``fitted_numbers``, are predictions, None where none was made. ``plane_wave_error``: predicted, of plane waves
-    against spherical ones. ``flatness``: by which errors count more in R² of a window than of a whole PSF. ``open``:
-    whether a comparison of more nodes might still find that plane waves do. ``fit``: the fit made for the choice, if
-    the method would make the same.
-    """
-
-    method: str
-    predicted_error: float
-    numbers: int
-    lost_rays: int = 0
-    tried_rays: int = 0
-    allowed_error: float = 0.0
-    seidel_error: float | None = None
-    fitted_error: float | None = None
-    fitted_numbers: int = 0
-    plane_wave_error: float | None = None
-    flatness: float = 1.0
-    open: bool = False
-    fit: FittedPencil | None = field(default=None, repr=False, compare=False)
-
-    @property
-    def reason(self) -> Message:
-        """Return why this method was chosen, as a sentence."""
-        reason = method_of(self.method).reason
-        if reason is None:
-            raise ValueError(f"{self.method} is never chosen")
-        missed = self.plane_wave_error or 0.0
-        if self.method == SPHERICAL.name or missed <= PLANE_SHARE * self.allowed_error:
-            return reason(self)
-        return Message(
-            "{reason}; plane waves may miss 1 − R² = {error:.1e} here, and spherical ones would take too long",
-            reason=reason(self),
-            error=min(missed, USELESS),
-        )
-
-    @property
-    def against_a_fit(self) -> Message:
-        """Return why no fit suffices."""
-        if self.lost_rays:
-            return Message(
-                "{lost} of {rays} rays are lost, and a smooth pupil does not describe that",
-                lost=self.lost_rays,
-                rays=self.tried_rays,
-            )
-        return Message(
-            "{numbers} fitted numbers leave 1 − R² ≤ {error:.1e} only",
-            numbers=self.fitted_numbers,
-            error=self.fitted_error,
-        )
 
 
 Cancelled = Callable[[], bool]
@@ -172,7 +94,7 @@ class PsfRequest:
     numbers: int | None = None
     converged: bool = True
     most_seconds: float = inf
-    choice: "Choice | None" = None
+    choice: Choice | None = None
     six: Coefficients | None = None
     by_hand: bool = False
     fit: FittedPencil | None = None
@@ -188,19 +110,17 @@ class Method:
     """A description of the pupil of a lens for a source, and the computation of a PSF from it.
 
     ``words``: its name and description in the window. ``psf``: returns the PSF, and may poll whether it is cancelled.
-    ``reason``: why `choose` takes it, None if it never does. ``six``: whether six coefficients describe the pupil, and
-    no rays. ``previewed``: whether it has a "preview" that costs less. ``whole``: whether few numbers describe the
-    whole pupil, of which rims leave a part. ``pupil``: whether it provides figures of the pupil. ``node_seconds``:
-    of a node of a settled sum on one core, the peak included, and ``most_nodes``: behind a mask, the mirror half of a
-    pupil not counted. ``nodes``: how many a sum has whatever the rays do, of a method with a grid of its own; None
-    where that follows from blur and window. ``of_reference``: makes the PSF from that of the reference, where it takes
-    no other way.
+    ``six``: whether six coefficients describe the pupil, and no rays. ``previewed``: whether it has a "preview" that
+    costs less. ``whole``: whether few numbers describe the whole pupil, of which rims leave a part. ``pupil``: whether
+    it provides figures of the pupil. ``node_seconds``: of a node of a settled sum on one core, the peak included, and
+    ``most_nodes``: behind a mask, the mirror half of a pupil not counted. ``nodes``: how many a sum has whatever the
+    rays do, of a method with a grid of its own; None where that follows from blur and window. ``of_reference``: makes
+    the PSF from that of the reference, where it takes no other way.
     """
 
     name: str
     words: Message
     psf: Callable[[PsfRequest, Cancelled | None], Psf]
-    reason: Callable[[Choice], Message] | None
     six: bool = False
     previewed: bool = False
     whole: bool = False
@@ -213,164 +133,6 @@ class Method:
     def seconds(self, nodes: float, samples: int) -> float:
         """Return the estimated seconds of a settled sum over nodes, for samples a side, on one core."""
         return sum_seconds(self.node_seconds, nodes, samples)
-
-
-def residual_for(min_r2: float) -> float:
-    """Return the RMS phase error in waves that keeps R² of a fit above ``min_r2``; at most RESIDUAL_WAVES."""
-    return min(RESIDUAL_WAVES, float(np.sqrt(max(1 - min_r2, 0) / SAFETY["fitted"]) / (2 * np.pi)))
-
-
-@one_blas_thread
-def choose(
-    lens: Lens,
-    source: Source,
-    min_r2: float = 0.99,
-    clip: bool = False,
-    window: tuple[int, float] | None = None,
-    flatness: float = 1.0,
-    quick: bool = False,
-) -> Choice:
-    """Return the cheapest method whose predicted R² is at least ``min_r2``, without running the reference.
-
-    The prediction is for a ``window`` (samples a side, µm between samples) with a picture of this `flatness_of`, or for
-    one that shows the whole PSF. Where the sum that keeps ``min_r2`` is estimated to take more than AUTO_SECONDS, the
-    best one within them is chosen, and its predicted error is above what is allowed. A ``quick`` choice leaves a long
-    comparison `open`. Raises GeometryError if the chief ray does not reach the sensor, RequestError for a ``min_r2``
-    not below 1.
-    """
-    _check_min_r2(min_r2, BELOW_ONE)
-    allowed = 1 - min_r2
-    xi, eta, weight = level_rays(levels_for(lens)[0])
-    rays = pencil(lens, source, xi, eta, clip=clip)
-    steep = steepness(rays, xi, eta)
-    half = inf if window is None else window[0] * window[1] / 2
-    bound = flatness * plane_wave_bound(lens, source, rays, weight, steep, half)
-    left_open = quick and bound > PLANE_SHARE * allowed and is_long_comparison(lens, source, clip, half)
-    if bound > PLANE_SHARE * allowed and not left_open:
-        bound = min(bound, _compared(lens, source, clip, half))
-    if bound <= PLANE_SHARE * allowed or not _sphere_is_affordable(lens, source, clip, window):
-        left = allowed - bound if bound <= PLANE_SHARE * allowed else allowed
-        choice = _choose_plane(lens, source, clip, rays, steep, left / flatness)
-        both = flatness * choice.predicted_error + bound
-        choice = replace(choice, predicted_error=both, allowed_error=allowed, plane_wave_error=bound, flatness=flatness)
-        return replace(choice, open=left_open)
-    error = TRACED_ERROR if rays.passed.all() and not clip else EDGE_ERROR
-    error = error if flatness * error <= allowed else SETTLED_TOLERANCE**2
-    lost = int((~rays.passed).sum())
-    return Choice(
-        "spherical",
-        flatness * error,
-        0,
-        lost,
-        xi.size,
-        allowed_error=allowed,
-        plane_wave_error=bound,
-        flatness=flatness,
-        open=left_open,
-    )
-
-
-def _compared(lens: Lens, source: Source, clip: bool, half_um: float) -> float:
-    """Return what plane waves may miss by a comparison of two sums; infinite where it takes too many nodes, or none.
-
-    Where rays end it would have to follow rims, which takes seconds.
-    """
-    if not _smooth(lens, source, clip):
-        return inf
-    try:
-        return COMPARED * plane_wave_error(lens, source, clip, half_um)
-    except P2SFError:
-        return inf
-
-
-def _smooth(lens: Lens, source: Source, clip: bool) -> bool:
-    """Return whether all rays of the pupil arrive and nothing stands in it, so that few rays describe the rest."""
-    return not clip and mask_seen(lens, source).clear and all_reach(lens, source)
-
-
-def _sphere_is_affordable(lens: Lens, source: Source, clip: bool, window: tuple[int, float] | None) -> bool:
-    """Return whether a sum of spherical waves with one column takes AUTO_SECONDS at most; False without a sphere."""
-    try:
-        smooth = _smooth(lens, source, clip)
-        most = AUTO_SECONDS / (2 * COLUMN_SECONDS) if smooth else AUTO_SECONDS * LAST_PASS / RAY_SECONDS
-        half = half_window_um(lens, source) if window is None else window[0] * window[1] / 2
-        reach = hypot(half, half)
-        if nodes_from(lens, source, reach) > PLANE_NODES * most:  # spared the neighbouring fields that a sphere takes
-            return False
-        sphere = exit_sphere(lens, source)
-        return sphere is not None and nodes_from(lens, source, reach, sphere) <= most
-    except GeometryError:
-        return False
-
-
-def _choose_plane(lens: Lens, source: Source, clip: bool, rays: Rays, steep: Steepness, allowed: float) -> Choice:
-    """Return the cheapest method of plane waves whose predicted error is allowed, from the rays of the first level."""
-    tried = _plane_choices(lens, source, clip, rays, steep)
-    choice, _ = first_within(((each, each.predicted_error) for each in tried), allowed)
-    return replace(choice, allowed_error=allowed)
-
-
-def _plane_choices(lens: Lens, source: Source, clip: bool, rays: Rays, steep: Steepness) -> Iterator[Choice]:
-    """Yield every method of plane waves with its predicted error, the cheapest first, each with the errors before."""
-    xi, eta, weight = level_rays(levels_for(lens)[0])
-    tried, by_rays = Choice("", inf, 0, int((~rays.passed).sum()), xi.size), EDGE_ERROR
-    if rays.passed.all():  # only rays represent an edge; six coefficients and fits do not
-        by_rays = TRACED_ERROR
-        c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
-        mask = mask_seen(lens, source)
-        checks = None if mask.clear else trace_check_rays(lens, source, mask)
-        against = reason_against_coefficients(lens)
-        error = _seidel_error(c, (xi, eta, weight), rays, checks, mask) if against is None else inf
-        tried = replace(tried, seidel_error=error)
-        yield replace(tried, method="seidel", numbers=6, predicted_error=error)
-        for level in levels_for(lens)[: len(QUICK_LEVELS)]:
-            found = fit_rays(rays, level, level.rays, steep)
-            found = found if checks is None else behind_mask(found, checks)
-            error = predicted_error(found.error_waves, "fitted")
-            tried = replace(tried, fitted_error=error, fitted_numbers=level.numbers)
-            own = None if clip or checks is not None else found
-            yield replace(tried, method="fitted", numbers=level.numbers, predicted_error=error, fit=own)
-    yield replace(tried, method="traced", predicted_error=by_rays)
-    yield replace(tried, method="huygens", predicted_error=SETTLED_TOLERANCE**2)
-
-
-def _check_min_r2(min_r2: float, largest: float = 1.0) -> None:
-    if not -inf < min_r2 <= largest:
-        raise RequestError("{parameter} is {value:g}; give the R² to hold, below 1", parameter="min_r2", value=min_r2)
-
-
-def seidel_error(lens: Lens, source: Source, c: Coefficients) -> float:
-    """Return the predicted 1 − R² of six coefficients ``c``; infinite if they do not apply.
-
-    They do not if rays are lost, or for a lens refused by `reason_against_coefficients`.
-    """
-    if reason_against_coefficients(lens):
-        return inf
-    xi, eta, weight = level_rays(levels_for(lens)[0])
-    try:
-        rays = pencil(lens, source, xi, eta)
-    except GeometryError:  # not even the chief ray arrives
-        return inf
-    if not rays.passed.all():
-        return inf
-    mask = mask_seen(lens, source)
-    checks = None if mask.clear else trace_check_rays(lens, source, mask)
-    return _seidel_error(c, (xi, eta, weight), rays, checks, mask)
-
-
-def _seidel_error(
-    c: Coefficients,
-    points: tuple[np.ndarray, np.ndarray, np.ndarray],
-    data: Rays,
-    checks: CheckRays | None,
-    mask: PupilMask,
-) -> float:
-    """Return the predicted 1 − R² of six coefficients from rays, behind a mask from those that pass it."""
-    # A narrow ring spreads its light more by this factor.
-    spread = steepness(data, *points[:2]).light_um / (1 - mask.obscuration)
-    if checks is not None:
-        points, data = (checks.xi, checks.eta, checks.share), checks.data
-    return predicted_error(seidel_sigma(c, data, points, spread), "seidel")
 
 
 @one_blas_thread
@@ -389,7 +151,7 @@ def render(
     """
     check_samples(pixels, pixel_um)
     check_quality(options.quality)
-    _check_min_r2(options.min_r2)
+    check_min_r2(options.min_r2)
     if pixel_um is None:
         pixel_um = whole_pixel_um(lens, source, pixels, method)
     asked = PsfRequest(lens, source, method, (pixels, pixel_um), options)
@@ -571,58 +333,20 @@ def _by_gaussian(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
     return gaussian_psf(_by_huygens(asked, cancelled))
 
 
-def _six_suffice(choice: Choice) -> Message:
-    return Message(
-        "six coefficients keep 1 − R² ≤ {error:.1e}, where {allowed:.1e} is allowed",
-        error=choice.predicted_error,
-        allowed=choice.allowed_error,
-    )
-
-
-def _a_fit_suffices(choice: Choice) -> Message:
-    return Message(
-        "{numbers} numbers from {rays} rays keep 1 − R² ≤ {error:.1e}, where {allowed:.1e} is allowed and six "
-        "coefficients would leave more",
-        numbers=choice.numbers,
-        rays=choice.tried_rays,
-        error=choice.predicted_error,
-        allowed=choice.allowed_error,
-    )
-
-
-def _rays_suffice(choice: Choice) -> Message:
-    return Message("exact rays, since {because}", because=choice.against_a_fit)
-
-
-def _nothing_else_suffices(choice: Choice) -> Message:
-    return Message("the reference itself, since {because}", because=choice.against_a_fit)
-
-
-def _waves_are_spherical(choice: Choice) -> Message:
-    return Message(
-        "spherical waves from the exit pupil, since plane ones may leave 1 − R² = {error:.1e}",
-        error=min(choice.plane_wave_error or 0.0, USELESS),
-    )
-
-
 SEIDEL = Method(
     "seidel",
     Message("seidel: six coefficients"),
     _by_six,
-    _six_suffice,
     six=True,
     previewed=True,
     whole=True,
     most_nodes=_most_by_six,
 )
-FITTED = Method(
-    "fitted", Message("fitted: polynomial from real rays"), _by_fit, _a_fit_suffices, previewed=True, whole=True
-)
+FITTED = Method("fitted", Message("fitted: polynomial from real rays"), _by_fit, previewed=True, whole=True)
 TRACED = Method(
     "traced",
     Message("traced: exact wavefront"),
     _by_traced_rays,
-    _rays_suffice,
     previewed=True,
     most_nodes=lambda mask: MOST_TRACED,
 )
@@ -630,7 +354,6 @@ HUYGENS = Method(
     "huygens",
     Message("huygens: the reference sum"),
     _by_huygens,
-    _nothing_else_suffices,
     node_seconds=RAY_SECONDS,
     most_nodes=lambda mask: MOST_RAYS,
 )
@@ -639,7 +362,6 @@ GAUSSIAN = replace(
     name="gaussian",
     words=Message("gaussian: fitted to the reference"),
     psf=_by_gaussian,
-    reason=None,
     pupil=False,
     of_reference=gaussian_psf,
 )
@@ -648,7 +370,6 @@ SPHERICAL = replace(
     name="spherical",
     words=Message("spherical: waves from the exit pupil"),
     psf=_by_spherical_waves,
-    reason=_waves_are_spherical,
     node_seconds=2 * RAY_SECONDS,
 )
 METHODS = (GAUSSIAN, SEIDEL, FITTED, TRACED, HUYGENS, SPHERICAL)

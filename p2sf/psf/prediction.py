@@ -11,12 +11,21 @@ light about x, by the Airy radius or by blur/√(Fresnel number), and Δf acts t
 (2πσ)² is measured over random lenses and sources by ``python -m tests.long.method_choice``; SAFETY covers it.
 """
 
+from math import inf
+
 import numpy as np
 
+from p2sf.disc.mask import PupilMask
+from p2sf.errors import GeometryError
+from p2sf.lens.lens import Lens
+from p2sf.lens.source import Source
 from p2sf.messages import Message
-from p2sf.paraxial.seidel import Coefficients
+from p2sf.paraxial.seidel import Coefficients, reason_against_coefficients
 from p2sf.paraxial.wavefront import wavefront
-from p2sf.raytrace.pencil import Rays
+from p2sf.pupil.fit import RESIDUAL_WAVES, CheckRays, level_rays, levels_for, trace_check_rays
+from p2sf.pupil.seen_mask import mask_seen
+from p2sf.raytrace.pencil import Rays, pencil
+from p2sf.raytrace.ray_field import steepness
 
 # Measured: at most 2.9 (seidel) and 2.4 (fitted) in windows that show the whole PSF, 8 in those that show its core.
 SAFETY = {"seidel": 5.0, "fitted": 8.0}
@@ -54,3 +63,42 @@ def seidel_sigma(
     amplitude = rays.amplitude[own] / (weight @ rays.amplitude[own] / weight.sum())
     uneven = weight @ (amplitude - 1) ** 2 / (2 * np.pi) ** 2
     return float(np.sqrt(variance + departure * spread**2 + uneven))
+
+
+def residual_for(min_r2: float) -> float:
+    """Return the RMS phase error in waves that keeps R² of a fit above ``min_r2``; at most RESIDUAL_WAVES."""
+    return min(RESIDUAL_WAVES, float(np.sqrt(max(1 - min_r2, 0) / SAFETY["fitted"]) / (2 * np.pi)))
+
+
+def seidel_error(lens: Lens, source: Source, c: Coefficients) -> float:
+    """Return the predicted 1 − R² of six coefficients ``c``; infinite if they do not apply.
+
+    They do not if rays are lost, or for a lens refused by `reason_against_coefficients`.
+    """
+    if reason_against_coefficients(lens):
+        return inf
+    xi, eta, weight = level_rays(levels_for(lens)[0])
+    try:
+        rays = pencil(lens, source, xi, eta)
+    except GeometryError:  # not even the chief ray arrives
+        return inf
+    if not rays.passed.all():
+        return inf
+    mask = mask_seen(lens, source)
+    checks = None if mask.clear else trace_check_rays(lens, source, mask)
+    return error_of_six(c, (xi, eta, weight), rays, checks, mask)
+
+
+def error_of_six(
+    c: Coefficients,
+    points: tuple[np.ndarray, np.ndarray, np.ndarray],
+    data: Rays,
+    checks: CheckRays | None,
+    mask: PupilMask,
+) -> float:
+    """Return the predicted 1 − R² of six coefficients from rays, behind a mask from those that pass it."""
+    # A narrow ring spreads its light more by this factor.
+    spread = steepness(data, *points[:2]).light_um / (1 - mask.obscuration)
+    if checks is not None:
+        points, data = (checks.xi, checks.eta, checks.share), checks.data
+    return predicted_error(seidel_sigma(c, data, points, spread), "seidel")

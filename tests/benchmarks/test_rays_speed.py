@@ -15,9 +15,10 @@ from threadpoolctl import threadpool_limits
 from p2sf.figures.compare import r_squared
 from p2sf.lens.lens import indices
 from p2sf.paraxial.seidel import coefficients
+from p2sf.psf.choosing import choose
 from p2sf.psf.fitted import fitted_psf
 from p2sf.psf.huygens import huygens_psf
-from p2sf.psf.methods import choose, render
+from p2sf.psf.methods import render
 from p2sf.psf.seidel import suitable_pixel_um
 from p2sf.psf.traced import traced_psf
 from p2sf.raytrace import trace as raytrace

@@ -36,7 +36,8 @@ from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source
 from p2sf.lens.transmission import Transmission
 from p2sf.paraxial.seidel import coefficients
-from p2sf.psf.methods import NAMES, residual_for, whole_pixel_um
+from p2sf.psf.methods import NAMES, whole_pixel_um
+from p2sf.psf.prediction import residual_for
 from p2sf.psf.result import Psf
 from p2sf.pupil.fit import fit
 from p2sf.pupil.seen_mask import mask_seen

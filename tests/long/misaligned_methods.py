@@ -23,9 +23,10 @@ from p2sf.lens.misalignment import displaced
 from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source
 from p2sf.paraxial.seidel import coefficients
+from p2sf.psf.choosing import choose
 from p2sf.psf.fitted import fitted_psf
 from p2sf.psf.huygens import first_counts, huygens_psf, sum_rays
-from p2sf.psf.methods import PsfOptions, choose, render
+from p2sf.psf.methods import PsfOptions, render
 from p2sf.psf.seidel import suitable_pixel_um
 from p2sf.psf.spherical import spherical_pupil
 from p2sf.psf.traced import traced_psf

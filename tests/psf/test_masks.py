@@ -17,9 +17,10 @@ from p2sf.lens.lens import with_mask
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.wavefront import wavefront
+from p2sf.psf.choosing import choose
 from p2sf.psf.fitted import fitted_psf
 from p2sf.psf.huygens import huygens_psf, sum_rays
-from p2sf.psf.methods import PsfOptions, choose, reference_pupil, render
+from p2sf.psf.methods import PsfOptions, reference_pupil, render
 from p2sf.psf.polychromatic import estimated_share
 from p2sf.psf.seidel import seidel_psf
 from p2sf.psf.spherical import spherical_pupil

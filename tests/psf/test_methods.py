@@ -22,20 +22,12 @@ from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf import cost, methods
+from p2sf.psf.choosing import QUICK_LEVELS, REASONS, Choice, choose
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.measures import PUPILS
-from p2sf.psf.methods import (
-    NAMES,
-    QUICK_LEVELS,
-    Choice,
-    PsfOptions,
-    PsfRequest,
-    choose,
-    render,
-    residual_for,
-)
+from p2sf.psf.methods import NAMES, PsfOptions, PsfRequest, render
 from p2sf.psf.pixel_integrals import render_integrated
-from p2sf.psf.prediction import CAUTION, predicted_error, seidel_sigma
+from p2sf.psf.prediction import CAUTION, predicted_error, residual_for, seidel_sigma
 from p2sf.pupil.cost import SAMPLE_SECONDS
 from p2sf.pupil.fit import level_rays
 from p2sf.studies.tradeoff import _point_of_trade, draw, error, front, table, to_json, tradeoff
@@ -302,7 +294,7 @@ def test_a_method_with_a_grid_of_its_own_says_what_it_costs(monkeypatch):
 def test_a_method_that_describes_no_pupil_makes_its_own_picture(monkeypatch):
     """Only one that is made from the reference's picture is taken from it."""
     lens, source, pixel, _ = off_axis()
-    own = replace(methods.FITTED, name="own", pupil=False, reason=None)
+    own = replace(methods.FITTED, name="own", pupil=False)
     monkeypatch.setattr(methods, "METHODS", (*methods.METHODS, own))
     made, fitted = (render_integrated(lens, source, method, 16, pixel) for method in ("own", "fitted"))
     assert np.array_equal(made.values, fitted.values)
@@ -316,7 +308,7 @@ def test_every_list_of_methods_names_those_there_are():
     assert set(inspect.signature(tradeoff).parameters["methods"].default) == set(NAMES)
     described = {method.name for method in methods.METHODS if method.pupil}
     assert set(PUPILS) == described and set(get_args(api.PupilMethod)) == {methods.AUTO, *described}
-    assert {method.name for method in methods.METHODS if method.reason} == described  # those that `choose` takes
+    assert set(REASONS) == described  # those that `choose` takes
 
 
 def test_the_reference_adds_to_what_plane_waves_miss_that_its_sum_settles_to_a_ten_thousandth():

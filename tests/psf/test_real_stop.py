@@ -14,9 +14,10 @@ from p2sf.lens.lens import Aperture, with_aim
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.seidel import coefficients
+from p2sf.psf.choosing import choose
 from p2sf.psf.fitted import fitted_psf
 from p2sf.psf.huygens import RayPupil, huygens_psf, sum_rays
-from p2sf.psf.methods import PsfOptions, choose, render
+from p2sf.psf.methods import PsfOptions, render
 from p2sf.psf.seidel import suitable_pixel_um
 from p2sf.psf.traced import traced_psf
 from p2sf.pupil.fit import fit

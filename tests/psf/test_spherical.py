@@ -17,9 +17,10 @@ from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
+from p2sf.psf.choosing import choose
 from p2sf.psf.huygens import ray_waves
 from p2sf.psf.measures import energy_in, mtf_of, parts_of
-from p2sf.psf.methods import PsfOptions, PsfRequest, choose, psf_of, render
+from p2sf.psf.methods import PsfOptions, PsfRequest, psf_of, render
 from p2sf.psf.peak import climb
 from p2sf.psf.pixel_integrals import render_integrated
 from p2sf.psf.prediction import CAUTION

@@ -17,9 +17,10 @@ from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml.lens import lens_to_toml, parse_toml, read_toml
+from p2sf.psf.choosing import choose
 from p2sf.psf.fitted import fitted_psf
 from p2sf.psf.huygens import huygens_psf
-from p2sf.psf.methods import PsfOptions, choose, render
+from p2sf.psf.methods import PsfOptions, render
 from p2sf.psf.traced import traced_psf
 from p2sf.pupil.seen_mask import mask_seen
 from p2sf.pupil.vignetting import open_part, pupil_nodes

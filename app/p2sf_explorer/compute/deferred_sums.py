@@ -8,8 +8,9 @@ from p2sf.errors import P2SFError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
+from p2sf.psf.choosing import AUTO_SECONDS, Choice
 from p2sf.psf.cost import node_count, predicted_seconds
-from p2sf.psf.methods import AUTO_SECONDS, Choice, PsfOptions, PsfRequest, by_six, method_of, psf_of
+from p2sf.psf.methods import PsfOptions, PsfRequest, by_six, method_of, psf_of
 from p2sf.psf.result import Psf
 from p2sf.psf.spherical import plane_wave_error
 from p2sf.pupil.fit import FittedPencil

@@ -11,8 +11,9 @@ from p2sf.errors import GeometryError
 from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients, reason_against_coefficients
 from p2sf.paraxial.wavefront import steepest_slope
+from p2sf.psf.choosing import Choice, choose
 from p2sf.psf.cost import coefficient_node_count, fit_node_count, nodes_beyond
-from p2sf.psf.methods import FITTED, SEIDEL, TRACED, Choice, PsfRequest, by_six, choose, psf_of
+from p2sf.psf.methods import FITTED, SEIDEL, TRACED, PsfRequest, by_six, psf_of
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import check_focus, check_image
 from p2sf.pupil.fit import FittedPencil

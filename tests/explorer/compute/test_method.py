@@ -7,7 +7,8 @@ import pytest
 from scipy.interpolate import RectBivariateSpline
 
 from p2sf.psf import spherical
-from p2sf.psf.methods import choose, psf_of
+from p2sf.psf.choosing import choose
+from p2sf.psf.methods import psf_of
 from p2sf_explorer.compute.deferred_sums import ComparisonRequest, SumCache, answer_to
 from p2sf_explorer.compute.finer import CRITICAL, ShownArea, finer, source
 from p2sf_explorer.compute.finer import answer as render_finer

@@ -12,7 +12,7 @@ from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.lensfile.toml.surface import ENTRIES
 from p2sf.paraxial.seidel import coefficients
-from p2sf.psf.methods import residual_for
+from p2sf.psf.prediction import residual_for
 from p2sf.pupil.fit import LEVELS, RESIDUAL_WAVES
 from p2sf.raytrace.pencil import pencil
 from p2sf_explorer.handbook.pages import page
