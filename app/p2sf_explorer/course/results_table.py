@@ -14,7 +14,7 @@ from p2sf_explorer.lessons.task_record import JOINT, CourseResult, TaskRecord, r
 
 FORMULA = ("=", "+", "-", "@", "\t", "\r")  # with which a spreadsheet begins a formula
 PERSON = ("name", "file", "program", "course", "language")
-OF_TASK = ("right", "attempts", "hints", "solution shown", "seconds", "last answer")
+OF_TASK = ("right", "attempts", "hints", "solution shown", "seconds", "last answer", "because")
 
 
 @dataclass(frozen=True)
@@ -100,7 +100,7 @@ def read_folder(folder: Path, known: Sequence[tuple[str, str]] = ()) -> ResultTa
 
 
 def write_table(table: ResultTable, path: Path) -> Path:
-    """Write the table as CSV, one row a file, six columns a task; ExportError."""
+    """Write the table as CSV, one row a file, `OF_TASK` of each task; ExportError."""
     text = io.StringIO()
     rows = csv.writer(text, lineterminator="\n")
     heads = (_plain_text(f"{task} {part}") for task in table.tasks for part in OF_TASK)
@@ -119,7 +119,7 @@ def _cells(record: TaskRecord | None) -> tuple[object, ...]:
         return ("",) * len(OF_TASK)
     last = record.answers[-1] if record.answers else ""
     counted = int(record.right), record.attempts, record.hints, int(record.told), round(record.seconds)
-    return (*counted, _plain_text(last))
+    return (*counted, _plain_text(last), _plain_text(record.because))
 
 
 def _plain_text(text: str) -> str:

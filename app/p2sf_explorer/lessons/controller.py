@@ -98,6 +98,7 @@ class LessonController(QObject):
         room.column.installEventFilter(self)
         room.column.splitterMoved.connect(self._keep_shares)
         self._pointed_at: tuple[str, int, str] = "", 0, ""
+        self.presenting, self._shared_for = False, ("", 0)
         self._by_hand = False  # the shares of page and sliders are a person's
         self.store.changed.connect(self.follow)
         self.follow(self.store.state)
@@ -283,6 +284,9 @@ class LessonController(QObject):
         if self.panel:
             self.panel.setVisible(lesson is not None)
         self._point(slider)
+        if self.presenting and (state.lesson.name, state.lesson.step) != self._shared_for:
+            self._shared_for = state.lesson.name, state.lesson.step
+            QTimer.singleShot(0, self._share)
 
     def _show_step(self, lesson: "Lesson", number: int, told: bool) -> None:
         from p2sf_explorer.lessons.lesson_panel import StepFrame
@@ -321,6 +325,7 @@ class LessonController(QObject):
         from p2sf_explorer.lessons.lesson_panel import LessonPanel
 
         made = LessonPanel((), self._window)
+        made.presenting = self.presenting
         self.desk.serve(made.task)
         made.chosen.connect(self.begin)
         made.moved.connect(self.move)
@@ -339,15 +344,37 @@ class LessonController(QObject):
     def _keep_shares(self) -> None:
         self._by_hand = True
 
+    def present(self, on: bool) -> None:
+        """Keep the question and one slider in view while presenting, or share the column as before."""
+        self.presenting = on
+        if self.panel:
+            self.panel.presenting = on
+        QTimer.singleShot(0, self._share)
+
     def _share(self) -> None:
-        """Give the page the height of a page of text, the sliders what is left, up to all that they need."""
+        """Give the page the height of a page of text, the sliders what is left, up to all that they need.
+
+        While presenting the page takes what it needs, and leaves the sliders the height of one at least.
+        """
         if self.panel is None or self._by_hand:
             return
         whole, page = self._room.column.height(), PAGE_LINES * self.panel.fontMetrics().lineSpacing()
-        shown = (row for row in self._room.sliders.rows.values() if not row.isHidden())
-        wanted = max(row.geometry().bottom() for row in shown) + SPACE
-        sliders = round(max(SLIDER_SHARE * whole, min(wanted, whole - page)))
+        shown = [row for row in self._room.sliders.rows.values() if not row.isHidden()]
+        if self.presenting:
+            sliders = max(whole - self.panel.whole_height, max(row.height() for row in shown) + 2 * SPACE)
+        else:
+            wanted = max(row.geometry().bottom() for row in shown) + SPACE
+            sliders = round(max(SLIDER_SHARE * whole, min(wanted, whole - page)))
         self._room.column.setSizes([whole - sliders, sliders])
+        if self.presenting:
+            QTimer.singleShot(0, self._show_question)
+
+    def _show_question(self) -> None:
+        """Scroll to the question, and to the slider that the step is about."""
+        if self.panel:
+            self.panel.show_question()
+        if key := self._pointed_at[2]:
+            self._room.sliders.reveal(key)
 
     def _point(self, key: str) -> None:
         """Mark the row of one slider, by a line at its left and a bold name."""

@@ -1,18 +1,24 @@
-"""The question of a step, large over the stage, with a countdown, and then its answer."""
+"""The question of a step, large over the stage, with a countdown for each of two votes, and then its answer."""
 
+from enum import Enum
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QObject, QRectF, Qt, QTimer
 from PySide6.QtGui import QMouseEvent, QPainter, QPaintEvent, QPalette, QPen
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QLineEdit, QVBoxLayout, QWidget
 
 from p2sf_explorer.i18n.tr import local, tr, unbroken
+from p2sf_explorer.lessons.task_record import LONGEST
+from p2sf_explorer.lessons.votes import Votes
 
 if TYPE_CHECKING:
     from p2sf_explorer.lessons.lesson import Step
 
 SECONDS = 60
 LINES, FEWEST_PX = 22, 14  # lines of type on the height of a stage; the smallest type
+WHOLE, FOOT = 0.94, 0.3  # of the stage's height that the card may take: all, and the foot below the picture it tells of
+VOTE = "A letter counts a raised hand, Backspace takes it back · counted: {count}"
+AGAIN = "Discuss it with a neighbour, then vote again · counted: {count}"
 ROUND = 16  # the unit of Qt's angles, of a degree
 
 
@@ -72,6 +78,23 @@ class Countdown(QWidget):
         painter.drawText(ring, Qt.AlignmentFlag.AlignCenter, str(self.left))
 
 
+class Phase(Enum):
+    """What the card shows: the question for a first and a second vote, the right option, all of the answer."""
+
+    FIRST = 1
+    SECOND = 2
+    SEEN = 3
+    TOLD = 4
+
+
+ASKED = Phase.FIRST, Phase.SECOND
+
+
+def phases(step: "Step") -> tuple[Phase, ...]:
+    """Return what is shown of a step's question in turn: without options there is no second vote."""
+    return tuple(Phase) if options_of(step, False) else (Phase.FIRST, Phase.TOLD)
+
+
 class HallCard(QFrame):
     """Lies over the ``stage``; type as large as the stage and the text allow."""
 
@@ -79,30 +102,50 @@ class HallCard(QFrame):
         super().__init__(stage)
         self.setObjectName("card")
         self._stage = stage
-        self.question, self.body = QLabel(self), QLabel(self)
-        for label in (self.question, self.body):
+        self.question, self.body, self.count = QLabel(self), QLabel(self), QLabel(self)
+        self.count.setObjectName("muted")
+        for label in (self.question, self.body, self.count):
             label.setWordWrap(True)
         self.question.setTextFormat(Qt.TextFormat.PlainText)
+        self.because = QLineEdit(self)
+        self.because.setPlaceholderText(tr("Because … (Enter to type)"))
+        self.because.setAccessibleName(tr("Because"))
+        self.because.setMaxLength(LONGEST)
         self.countdown = Countdown(self)
         self._head = head = QHBoxLayout()
         head.addWidget(self.question, 1)
         head.addWidget(self.countdown, 0, Qt.AlignmentFlag.AlignTop)
         self._column = QVBoxLayout(self)
         self._column.addLayout(head)
-        self._column.addWidget(self.body)
-        self._told = False
+        for part in (self.body, self.because, self.count):
+            self._column.addWidget(part)
+        self.phase, self._votes = Phase.FIRST, Votes()
+        self._step: Step | None = None
         stage.installEventFilter(self)
         self.hide()
 
-    def ask(self, step: "Step") -> None:
-        """Show the question of a step, with its options by their letters, and start the countdown."""
-        self._fill(step, False)
-        self.countdown.begin()
+    @property
+    def voting(self) -> int:
+        """Return how many options may be voted for now."""
+        step = self._step if self.isVisible() and self.phase in ASKED else None
+        return len(options_of(step, False)) if step else 0
 
-    def tell(self, step: "Step") -> None:
-        """Show the answer under the question, and of the options the right one."""
-        self.countdown.stop()
-        self._fill(step, True)
+    def show_phase(self, step: "Step", phase: Phase, votes: Votes) -> None:
+        """Show a step's question for a vote and start the countdown, or the right option, or the answer."""
+        if phase is Phase.FIRST:
+            self.because.clear()
+        self.because.clearFocus()
+        self.phase, self._step = phase, step
+        if phase in ASKED:
+            self.countdown.begin()
+        else:
+            self.countdown.stop()
+        self.show_votes(votes)
+
+    def show_votes(self, votes: Votes) -> None:
+        """Show the card with how many votes were counted, and after both votes how many each option got."""
+        self._votes = votes
+        self._fill()
 
     def put_away(self) -> None:
         """Show the stage again."""
@@ -112,19 +155,26 @@ class HallCard(QFrame):
     @property
     def told(self) -> bool:
         """Return whether the answer is on show."""
-        return self.isVisible() and self._told
+        return self.isVisible() and self.phase is Phase.TOLD
 
-    def _fill(self, step: "Step", told: bool) -> None:
+    def _fill(self) -> None:
         from p2sf_explorer.lessons.lesson_panel import rich
 
-        self._told = told
-        self.question.setText(unbroken(local(step.question)))
-        parts = options_of(step, told)
-        if told:
+        if self._step is None:
+            return
+        step, asked = self._step, self.phase in ASKED
+        options = options_of(step, not asked)
+        parts = options if asked else [*options, *votes_of(step, self._votes)]
+        if self.phase is Phase.TOLD:
             parts.append(rich(local(step.answer)))
+        self.question.setText(unbroken(local(step.question)))
+        self.question.setVisible(asked or not options)  # the picture that answers it needs the room
         self.body.setText("".join(parts))
         self.body.setVisible(bool(parts))
-        self.countdown.setVisible(not told)
+        self.because.setVisible(bool(options) and not asked)
+        self.count.setText(tr(VOTE if self.phase is Phase.FIRST else AGAIN, count=len(self._votes.counted)))
+        self.count.setVisible(bool(options) and asked)
+        self.countdown.setVisible(asked)
         self.show()
         self.raise_()
         self._place()
@@ -138,14 +188,17 @@ class HallCard(QFrame):
     def _place(self) -> None:
         """Take the largest type with which the text fits: in the middle of the stage, an answer at its foot."""
         room = self._stage.size()
-        wide, most = round(0.94 * room.width()), round(0.94 * room.height())
+        told = self.phase not in ASKED
+        sees = bool(self._step and self._step.task and self._step.task.see)
+        wide, most = round(WHOLE * room.width()), round((FOOT if told and sees else WHOLE) * room.height())
         for pixels in range(max(FEWEST_PX, room.height() // LINES), FEWEST_PX - 1, -1):
             style = f"font-size: {pixels}px;"
             self.question.setStyleSheet(f"{style} font-weight: 600;")
-            self.body.setStyleSheet(style)
+            for part in (self.body, self.because):
+                part.setStyleSheet(style)
             self._column.setContentsMargins(pixels, pixels, pixels, pixels)
             self.countdown.setFixedSize(4 * pixels, 4 * pixels)
-            for label in (self.question, self.body):
+            for label in (self.question, self.body, self.because):
                 label.ensurePolished()  # its type is known only then
             self._head.invalidate()
             self._column.invalidate()
@@ -153,7 +206,7 @@ class HallCard(QFrame):
             if high <= most:
                 break
         high = min(high, most)
-        top = room.height() - high - round(0.03 * room.height()) if self._told else (room.height() - high) // 2
+        top = room.height() - high - round(0.03 * room.height()) if told else (room.height() - high) // 2
         self.setGeometry((room.width() - wide) // 2, top, wide, high)
 
 
@@ -172,3 +225,14 @@ def options_of(step: "Step", told: bool) -> list[str]:
         if not told or number == task.answer.right:
             lines.append(f"<p>{'✓ ' if told else ''}<b>{letter(place)}</b>&nbsp; {words}</p>")
     return lines
+
+
+def votes_of(step: "Step", votes: Votes) -> list[str]:
+    """Return a line of HTML with the votes for each option, at first and after the discussion; none without votes."""
+    from p2sf_explorer.lessons.answer_fields import letter
+
+    if not (votes.first or votes.second):
+        return []
+    places = range(len(options_of(step, False)))
+    counts = (f"<b>{letter(place)}</b>&nbsp;{' → '.join(map(str, votes.of(place)))}" for place in places)
+    return [f"<p>{tr('Votes: {counts}', counts=' · '.join(counts))}</p>"]

@@ -68,6 +68,7 @@ class LessonPanel(QFrame):
         self.next.setToolTip(tr("The next step (Alt+Right)"))
         self._shown: tuple[Lesson, int, StepFrame] | None = None
         self._to_answer = False
+        self.presenting = False  # the question stays in view, and the text above it scrolls away
         self._lay_out()
         self._connect()
         self.hide()
@@ -84,7 +85,7 @@ class LessonPanel(QFrame):
         head.addWidget(self.exit)
         page = QWidget()
         page.setObjectName("page")
-        inner = QVBoxLayout(page)
+        self._inner = inner = QVBoxLayout(page)
         inner.setContentsMargins(0, 0, SPACE, 0)
         inner.setSpacing(10)
         first = self.about, self.blocks, self.title, self.text, self.attempt
@@ -171,6 +172,23 @@ class LessonPanel(QFrame):
             QTimer.singleShot(0, self._stop_following)  # lines that wrap anew change the range more than once
             bar, foot = self.area.verticalScrollBar(), self.answer.geometry().bottom() + 1
             bar.setValue(max(bar.value(), min(self.question.y(), foot - self.area.viewport().height())))
+        elif self.presenting:
+            self.show_question()
+
+    @property
+    def whole_height(self) -> int:
+        """Return the height at which all of the page is in view."""
+        port = self.area.viewport()
+        return self.height() - port.height() + self._inner.totalHeightForWidth(port.width())
+
+    def show_question(self) -> None:
+        """Scroll so far that the question is in view with its answers and *Check*."""
+        last = self.task if self.task.isVisible() else self.question
+        foot = last.geometry().bottom() + 1
+        if last is self.task and self.task.check.isVisible():
+            foot = self.task.y() + self.task.check.geometry().bottom() + 1
+        wanted = min(self.question.y(), foot - self.area.viewport().height()) if self.question.isVisible() else 0
+        self.area.verticalScrollBar().setValue(max(0, wanted))
 
     def _stop_following(self) -> None:
         self._to_answer = False

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from p2sf_explorer.lessons.lesson import Lesson
 
 SIZE = 520, 640
-KEYS = "Page Down goes on, Page Up back, B blanks the screen, T stops the countdown"
+KEYS = "Page Down goes on, Page Up back, a full stop blanks the screen, T stops the countdown, letters count votes"
 
 
 class NotesWindow(QWidget):

@@ -42,6 +42,7 @@ class TaskDesk(QObject):
         panel.answered.connect(self.answer)
         panel.hint_asked.connect(self.give_hint)
         panel.again_asked.connect(self.set_up)
+        panel.reasoned.connect(self.note_reason)
 
     def result(self) -> "CourseResult":
         """Return all records so far; a damaged file is put aside and told of."""
@@ -117,6 +118,12 @@ class TaskDesk(QObject):
             record = self._record(lesson, task)
             self._keep(lesson, task, replace(record, hints=min(record.hints + 1, len(task.hints))))
             self.show(lesson, self._number)
+
+    def note_reason(self, text: str) -> None:
+        """Keep why the answer on show is right, as the student says it."""
+        lesson, task = self._lesson, self._task()
+        if lesson and task and text.strip() != (record := self.result().record(lesson.name, task.name)).because:
+            self._keep(lesson, task, replace(record, because=text.strip()))
 
     def set_up(self) -> None:
         """Set the window as the task begins."""

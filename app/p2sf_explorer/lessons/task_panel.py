@@ -3,14 +3,14 @@
 from dataclasses import dataclass
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QVBoxLayout
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QLineEdit, QPushButton, QVBoxLayout
 
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import local, tr, unbroken
 from p2sf_explorer.lessons.answer_fields import AnswerField, answer_field
 from p2sf_explorer.lessons.offer import tool
-from p2sf_explorer.lessons.task import Exercise, GoalAnswer, Judgement
-from p2sf_explorer.lessons.task_record import TaskRecord
+from p2sf_explorer.lessons.task import ChoiceAnswer, Exercise, GoalAnswer, Judgement
+from p2sf_explorer.lessons.task_record import LONGEST, TaskRecord
 
 
 @dataclass(frozen=True)
@@ -31,13 +31,14 @@ class TaskView:
 class TaskPanel(QFrame):
     """``answered``: an answer's text; ``hint_asked``; ``again_asked``: the state of the task is to be set once more.
 
-    ``judged``: something is said of an answer.
+    ``judged``: something is said of an answer; ``reasoned``: why it is so, in the student's own words.
     """
 
     answered = Signal(str)
     hint_asked = Signal()
     again_asked = Signal()
     judged = Signal()
+    reasoned = Signal(str)
 
     def __init__(self) -> None:
         super().__init__()
@@ -49,6 +50,12 @@ class TaskPanel(QFrame):
             label.setObjectName("task")
             label.setTextFormat(Qt.TextFormat.PlainText)
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.because = QLineEdit(self)
+        self.because.setPlaceholderText(tr("Because …"))
+        self.because.setAccessibleName(tr("Because"))
+        self.because.setToolTip(tr("Say in one sentence why it is so; it is kept with your answers"))
+        self.because.setMaxLength(LONGEST)
+        self.because.editingFinished.connect(lambda: self.reasoned.emit(self.because.text()))
         self.check = QPushButton(tr("Check"), self)
         self.check.setToolTip(tr("Check the answer (Enter)"))
         self.hint = tool("", "Show the next hint; the file of results counts them")
@@ -63,7 +70,7 @@ class TaskPanel(QFrame):
         below.addStretch(1)
         self._column = QVBoxLayout(self)
         self._column.setContentsMargins(0, 0, 0, 0)
-        for part in (self.field, self.verdict, self.hints):
+        for part in (self.field, self.verdict, self.because, self.hints):
             self._column.addWidget(part)
         self._column.addLayout(row)
         self._column.addLayout(below)
@@ -83,12 +90,14 @@ class TaskPanel(QFrame):
             self.field.deleteLater()
             self.field = field
             self.show_verdict(None)
+            self.because.setText(record.because)
             if record.answers:
                 field.show_answer(record.answers[-1])
                 self._show_earlier(view)
         self.field.setEnabled(not view.closed)
         self.check.setVisible(not view.closed)
         self.again.setVisible(not view.closed and (isinstance(task.answer, GoalAnswer) or bool(task.see)))
+        self.because.setVisible(isinstance(task.answer, ChoiceAnswer) and bool(record.answers) and not view.silent)
         self._show_hints(view)
 
     def _show_earlier(self, view: TaskView) -> None:

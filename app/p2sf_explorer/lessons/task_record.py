@@ -25,13 +25,14 @@ JOINT = "/"  # between lecture and task
 
 @dataclass(frozen=True)
 class TaskRecord:
-    """What was answered to one task, first to last, hints and solution that were shown, and the time it took."""
+    """What was answered to one task, first to last, hints and solution that were shown, the time it took, and why."""
 
     answers: tuple[str, ...] = ()
     hints: int = 0
     right: bool = False
     told: bool = False
     seconds: float = 0.0
+    because: str = ""  # why, in the person's own words
 
     @property
     def attempts(self) -> int:
@@ -116,7 +117,10 @@ def _record(content: object, key: str) -> TaskRecord:
     if not isinstance(seconds, int | float) or isinstance(seconds, bool) or not isfinite(seconds) or seconds < 0:
         raise ValueError(f"{key} seconds")
     right, told = (_entry(content, name, bool) for name in ("right", "told"))
-    return TaskRecord(tuple(map(_printable, answers)), hints, right, told, float(seconds))
+    because = content.get("because", "")  # files of version 0.3 have none
+    if not isinstance(because, str):
+        raise ValueError(f"{key} because")
+    return TaskRecord(tuple(map(_printable, answers)), hints, right, told, float(seconds), _printable(because))
 
 
 def _entry(content: dict[str, Any], name: str, kind: type) -> Any:

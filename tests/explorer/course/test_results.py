@@ -22,7 +22,8 @@ def result_of(number: int) -> CourseResult:
     for attempt in range(number % 3 + 1):
         record = record.with_answer(f"{attempt} µm", right=attempt == number % 3)
     made = made.with_record("lecture_1", "airy", record)
-    return made.with_record("lecture_1", "flare", TaskRecord().with_answer("1", False))
+    record = replace(TaskRecord().with_answer("1", False), because="It turns.")
+    return made.with_record("lecture_1", "flare", record)
 
 
 @pytest.fixture
@@ -78,7 +79,7 @@ def test_the_csv_has_one_row_a_student_and_the_same_numbers(folder, tmp_path):
     assert (fifth["name"], fifth["right in all"]) == ("Student 05", "1")
     assert (fifth["lecture_1/airy right"], fifth["lecture_1/airy attempts"]) == ("1", "3")
     assert (fifth["lecture_1/airy hints"], fifth["lecture_1/airy seconds"]) == ("1", "15")
-    assert fifth["lecture_1/flare last answer"] == "1"
+    assert fifth["lecture_1/flare last answer"] == "1" and fifth["lecture_1/flare because"] == "It turns."
 
 
 def test_no_name_or_answer_becomes_a_formula_in_a_spreadsheet(tmp_path):
@@ -105,7 +106,9 @@ GOOD = {
     "program": "1",
     "course": "1",
     "language": "en",
-    "tasks": {"lecture_1/airy": {"answers": ["1"], "hints": 0, "right": False, "told": False, "seconds": 1.0}},
+    "tasks": {
+        "lecture_1/airy": {"answers": ["1"], "hints": 0, "right": False, "told": False, "seconds": 1.0, "because": ""}
+    },
 }
 
 
@@ -136,6 +139,7 @@ def damaged(part: str, value: object) -> str:
         damaged("hints", True),
         damaged("right", 1),
         damaged("seconds", "long"),
+        damaged("because", 3),
         damaged("seconds", -1),
         damaged("seconds", float("nan")),
         damaged("seconds", 10**400),

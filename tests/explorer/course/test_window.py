@@ -91,6 +91,19 @@ def test_an_option_is_chosen_by_its_letter_or_its_text_and_the_window_shows_what
     assert record(teaching, "choice").right and record(teaching, "choice").attempts == 2
 
 
+def test_after_an_answer_one_sentence_says_why_and_is_kept(qtbot, teaching, at):
+    panel = at("choice")
+    assert not panel.because.isVisible(), "first the answer"
+    panel.field.group.buttons()[0].click()
+    panel.check.click()
+    qtbot.keyClicks(panel.because, "it turns ")
+    qtbot.keyClick(panel.because, Qt.Key.Key_Return)
+    assert record(teaching, "choice").because == "it turns" and record(teaching, "choice").attempts == 1
+    at("radius")
+    assert not panel.because.isVisible()
+    assert at("choice").because.text() == "it turns"
+
+
 def test_items_are_moved_into_order_by_buttons(teaching, at):
     panel = at("order")
     field = panel.field

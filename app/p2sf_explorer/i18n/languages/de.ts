@@ -235,7 +235,14 @@
 <message><source>Lecture {number}: {title}</source><translation>Vorlesung {number}: {title}</translation></message>
 <message><source>Click, or press T, to stop the countdown or let it go on</source><translation>Klicken, oder T drücken, hält den Countdown an oder lässt ihn weiterlaufen</translation></message>
 <message><source>{count} seconds left</source><translation>noch {count} Sekunden</translation></message>
-<message><source>Page Down goes on, Page Up back, B blanks the screen, T stops the countdown</source><translation>Bild ab geht weiter, Bild auf zurück, B macht den Schirm schwarz, T hält den Countdown an</translation></message>
+<message><source>Page Down goes on, Page Up back, a full stop blanks the screen, T stops the countdown, letters count votes</source><translation>Bild ab geht weiter, Bild auf zurück, ein Punkt macht den Schirm schwarz, T hält den Countdown an, Buchstaben zählen Stimmen</translation></message>
+<message><source>A letter counts a raised hand, Backspace takes it back · counted: {count}</source><translation>Ein Buchstabe zählt eine gehobene Hand, die Rücktaste nimmt sie zurück · gezählt: {count}</translation></message>
+<message><source>Discuss it with a neighbour, then vote again · counted: {count}</source><translation>Besprechen Sie es zu zweit, dann stimmen Sie noch einmal ab · gezählt: {count}</translation></message>
+<message><source>Because … (Enter to type)</source><translation>Weil … (Eingabetaste, dann schreiben)</translation></message>
+<message><source>Because …</source><translation>Weil …</translation></message>
+<message><source>Say in one sentence why it is so; it is kept with your answers</source><translation>Sagen Sie in einem Satz, warum es so ist; er bleibt bei Ihren Antworten</translation></message>
+<message><source>Because</source><translation>Weil</translation></message>
+<message><source>Votes: {counts}</source><translation>Stimmen: {counts}</translation></message>
 <message><source>Notes</source><translation>Notizen</translation></message>
 <message><source>Next: {title}</source><translation>Danach: {title}</translation></message>
 <message><source>Notes of the lesson in a window of their own</source><translation>Notizen zur Lektion in einem eigenen Fenster</translation></message>
