@@ -273,12 +273,13 @@ BLURRED = [
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "stop", "depth", "angle", "wave", "counts"), BLURRED)
 def test_auto_keeps_its_promise_under_blur(name, stop, depth, angle, wave, counts):
-    """Plane waves, which were taken since more nodes than 2¹⁶ had to be compared, left R² 0.933, 0.979 and 0.962."""
+    """At ten places a side, where plane waves leave R² 0.886, 0.987 and 0.970 (measured)."""
     setup = set_up_source(find_lens(name), Source(depth, field_deg=angle, wavelength_nm=wave), Camera(f_number=stop))
-    psf = render(setup.lens, setup.source, pixels=24)
+    psf, plane = (render(setup.lens, setup.source, method, pixels=10) for method in ("auto", "traced"))
     exact = double_sum(setup.lens, setup.source, psf.x_um, counts)
     assert psf.method == "spherical" and psf.shortfall is None
-    assert r_squared(psf.values, exact) > 0.9999  # measured: 3e-6, of which 1e-6 is that of the rank
+    assert r_squared(psf.values, exact) > 0.9999  # measured: 1e-6 is left, that of the rank
+    assert r_squared(plane.values, exact) < 0.99
 
 
 def test_spherical_waves_can_be_interrupted_between_their_columns():

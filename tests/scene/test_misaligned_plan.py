@@ -112,14 +112,14 @@ def test_a_mirrored_lens_forms_the_mirrored_picture(planned, straight, values):
     "shape",
     [
         XYPolynomial((0.0, 1e-4, 0.0, 2e-3, 0.0, 1e-3), normalisation_mm=10.0),
-        pytest.param(RadialPolynomial((0.0, 0.0, 1e-5)), marks=pytest.mark.slow),  # 45 fits of high order
+        RadialPolynomial((0.0, 0.0, 1e-5)),
     ],
     ids=repr,
 )
 def test_surfaces_without_six_coefficients_are_planned_by_fits(straight, shape):
     """A freeform, which has no symmetry either, and an odd asphere, which has."""
     odd = replace(straight, surfaces=(replace(straight.surfaces[0], shape=shape), *straight.surfaces[1:]))
-    scene = replace(SINGLE, f_number=11.0, rtol=0.1)
+    scene = replace(SINGLE, f_number=16.0, rtol=0.1)
     made = plan(odd, scene)
     assert made.meets and made.recipe.method == "fitted"
     assert made.sensor_map(0.0).about_axis == shape.radial
