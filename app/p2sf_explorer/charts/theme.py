@@ -135,7 +135,7 @@ def screen_scale(screen: QSize) -> float:
 
 def _theme(choice: str) -> Tokens:
     if choice == "system":
-        return DARK if system_scheme() == Qt.ColorScheme.Dark else LIGHT
+        return LIGHT if system_scheme() == Qt.ColorScheme.Light else DARK  # also where the system does not say
     return DARK if choice == "dark" else LIGHT
 
 

@@ -99,7 +99,7 @@ class CompareBar(QFrame):
             return
         if beside:
             self._column.removeWidget(self.words)
-            self._row.insertWidget(len(SIDES) + 1, self.words)
+            self._row.insertWidget(len(SIDES) + 1, self.words, 1)
         else:
             self._row.removeWidget(self.words)
             self._column.addWidget(self.words)

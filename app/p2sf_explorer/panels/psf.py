@@ -74,6 +74,11 @@ class PsfPanel:
         self._settled.timeout.connect(self._on_resized)
         self.map.resized.connect(self._settled.start)
 
+    @property
+    def half_um(self) -> float:
+        """Return half the side of the square that is shown whole, µm; 1 before the first picture."""
+        return self._frame.half_um if self._frame else 1.0
+
     def show(self, live: Live) -> None:
         """Paint the PSF about its light, and have it summed again where it is too coarse or does not fill the view."""
         self._live = live

@@ -103,7 +103,7 @@ WIDTH = 292  # pixels of the column at scale 1
 
 
 class Controls(QWidget):
-    """All rows, the autofocus button, and the sentence that names the dominant term."""
+    """All rows, the autofocus button, why the method was taken, and figures."""
 
     autofocus = Signal()
     swept, grasped = Signal(str), Signal(str)
@@ -127,7 +127,7 @@ class Controls(QWidget):
         self._slim, self._state, self._folded = False, store.state, fold.Fold()
         self._wanted, self._scroll = "", QTimer(self, singleShot=True, interval=0)
         self._scroll.timeout.connect(self._scroll_to_wanted)
-        self.sentence, self.detail, self.facts = Sentence(self), Sentence(self), FactTable(self)
+        self.detail, self.facts = Sentence(self), FactTable(self)
         self._lay_out()
 
     def _fold(self, store: Store) -> QToolButton:
@@ -140,7 +140,6 @@ class Controls(QWidget):
         return made
 
     def _lay_out(self) -> None:
-        self.sentence.setObjectName("sentence")
         self.detail.setObjectName("muted")
         column = self._column()
         for key in ABOVE:
@@ -152,7 +151,6 @@ class Controls(QWidget):
         column.addWidget(self.aiming)
         column.addWidget(self.focus_button)
         column.addSpacing(4)
-        column.addWidget(self.sentence)
         column.addWidget(self.detail)
         self.figures = in_scroll_area(self.facts)
         column.addWidget(self.figures, 1)
@@ -180,7 +178,7 @@ class Controls(QWidget):
     def make_slim(self, slim: bool) -> None:
         """Show the sliders alone, or everything."""
         self._slim = slim
-        for part in (self.more, self.sentence, self.figures):
+        for part in (self.more, self.figures):
             part.setVisible(not slim)
         self._below.setVisible(slim)
         self._unfold(self._state)
@@ -227,7 +225,7 @@ class Controls(QWidget):
         self._unfold(state)
 
     def show_live(self, live: Live) -> None:
-        """Show what follows from the state: heights, sensor position, the dominant term."""
+        """Show what follows from the state: heights, sensor position, figures."""
         height = live.setup.object_y_mm
         image = float(live.setup.coefficients.image_height)
         object_text = tr("object at infinity") if height is None else tr("object {h} mm", h=with_sign(height, 2))
@@ -235,16 +233,13 @@ class Controls(QWidget):
         for quantity in RING_QUANTITIES:
             self.rows[quantity.key].show_note(said(ring_note(live, quantity.ring or "zoom")))
         apart = live.state.compare.shown != "a"  # B is on screen too, and this column stays A's
-        dominant = said(live.dominant)
-        self.sentence.setText(unbroken(f"A: {dominant}" if apart else dominant))
         self.detail.setText(unbroken(live.why.text(WINDOW)))
         self.facts.show_rows((OF_A, *rows(live)) if apart else rows(live))
 
     def show_none(self) -> None:
-        """Show no figures and no dominant term, where a state has no answer."""
+        """Show no figures, where a state has no answer."""
         for key in ("field_deg", *RINGS):
             self.rows[key].show_note(UNKNOWN)
-        self.sentence.clear()
         self.detail.clear()
         self.facts.show_rows(tuple((name, Message(UNKNOWN), tip) for name, _, tip in self.facts.rows))
 

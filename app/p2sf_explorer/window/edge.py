@@ -1,11 +1,9 @@
-"""What floats over the lower edge of the stage, so that nothing moves when it comes: messages, A and B, the player."""
+"""What floats over the line under the stage, so that nothing moves when it comes: messages and offers."""
 
 from PySide6.QtCore import QEvent, QObject, QPoint
 from PySide6.QtWidgets import QGraphicsDropShadowEffect, QSizePolicy, QVBoxLayout, QWidget
 
 from p2sf_explorer.charts.theme import SPACE
-
-ABOVE = 88  # pixels at scale 1 from the stage's end: the axis, and how the picture was made, stay in sight
 
 
 class StageEdge(QWidget):
@@ -55,7 +53,7 @@ class StageEdge(QWidget):
         if not shown or parent is None:
             return
         gap = round(SPACE * self._scale)
-        corner = self._stage.mapTo(parent, QPoint(gap, self._stage.height() - round(ABOVE * self._scale)))
+        corner = self._stage.mapTo(parent, QPoint(gap, self._stage.height()))
         needed = max(bar.minimumSizeHint().width() for bar in shown)
         wide = min(max(self._stage.width() - 2 * gap, needed), parent.width() - 2 * gap)
         left = max(gap, min(corner.x(), parent.width() - gap - wide))

@@ -54,6 +54,10 @@ class PanelPlace(QFrame):
         """Have a widget above the panel."""
         self.column.insertWidget(0, widget)
 
+    def put_below(self, widget: QWidget) -> None:
+        """Have a widget below the panel."""
+        self.column.addWidget(widget)
+
     def show_note(self, shown: bool) -> None:
         """Say, or no longer say, where the panel is."""
         self.note.setVisible(shown)

@@ -16,7 +16,7 @@ from PySide6.QtGui import (
     QKeyEvent,
     QShowEvent,
 )
-from PySide6.QtWidgets import QApplication, QHBoxLayout, QLineEdit, QMainWindow, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QApplication, QHBoxLayout, QLineEdit, QMainWindow, QSizePolicy, QVBoxLayout, QWidget
 
 from p2sf.errors import P2SFError
 from p2sf.lens.lens import message_if_misaligned
@@ -29,6 +29,7 @@ from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.caption import caption
 from p2sf_explorer.compute.deferred_sums import Found, Request, SumCache, answer_to
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.setup import first_state
 from p2sf_explorer.course.course import Course
 from p2sf_explorer.files.file_watcher import FileWatcher
 from p2sf_explorer.i18n.messages import said
@@ -43,19 +44,30 @@ from p2sf_explorer.state.limits import ADDED, HOLDABLE
 from p2sf_explorer.state.link import is_link
 from p2sf_explorer.state.panels import PANELS, REGISTRY, view_of
 from p2sf_explorer.state.state import Display, State
-from p2sf_explorer.state.workspaces import exchange, kept_in_rail, on_show, on_stage, place_panels, put_to_tabs
+from p2sf_explorer.state.workspaces import (
+    WORKSPACES,
+    exchange,
+    kept_in_rail,
+    on_show,
+    on_stage,
+    place_panels,
+    put_to_tabs,
+    with_workspace,
+)
 from p2sf_explorer.store.late_answers import LateAnswers
 from p2sf_explorer.store.live_accuracy import AccuracyDisplay, LiveAccuracy
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.caption import Caption
+from p2sf_explorer.widgets.command import Command
 from p2sf_explorer.widgets.drop import DropFrame, dropped_path, is_photo
 from p2sf_explorer.widgets.roles import install_roles
 from p2sf_explorer.window.bars import Banner, StatusLine, TopBar
-from p2sf_explorer.window.commands.actions import Actions, PanelAccess
+from p2sf_explorer.window.commands.actions import BEGIN, Actions, PanelAccess
 from p2sf_explorer.window.commands.sharing import Sharing
 from p2sf_explorer.window.controls import WIDTH, Controls
 from p2sf_explorer.window.edge import StageEdge
 from p2sf_explorer.window.floating_panels import FloatingPanels, Home
+from p2sf_explorer.window.foot import Foot
 from p2sf_explorer.window.memory_trim import MemoryTrim
 from p2sf_explorer.window.no_answer import NO_ANSWER, draw_setup
 from p2sf_explorer.window.presentation import LARGER, LARGER_BESIDE, Presentation
@@ -98,6 +110,7 @@ class MainWindow(QMainWindow):
         self._placed_from: Display | None = None
         self._theme: Tokens = self._tokens(self.store.state)
         self._styled: dict[str, Tokens] = {}
+        self._start: StartScreen | None = None
         self.panels: dict[str, Panel] = {}
         self._make_bars()
         for key in ALWAYS:
@@ -114,7 +127,9 @@ class MainWindow(QMainWindow):
         self.status, self.banner, self.tabs = StatusLine(self), Banner(self), Tabs(REGISTRY, self)
         self.room = PanelRoom(self.tabs, self)
         self.caption = Caption(self.room.stage)
+        self.foot = Foot(self.room.stage)
         self.room.stage.put_above(self.caption)
+        self.room.stage.put_below(self.foot)
         self.second = SecondSide(self.store, self.room.stage)
         self.floating = FloatingPanels(self, self.store, {entry.key: entry.title for entry in REGISTRY})
         self.compare = CompareBar(self, self.store)
@@ -156,6 +171,7 @@ class MainWindow(QMainWindow):
         for part in (self.sharing, self.compare, self.play, self.teaching, self.hall, self.course, *own):
             for command in part.commands():
                 self.commands.add(command)
+        self.commands.add(Command(BEGIN, self.begin_again))
         self.commands.sources.append(self.teaching.listed)
         self.commands.fill_menu()
         self.sharing.fill(self.top.snapshot.menu())
@@ -194,6 +210,9 @@ class MainWindow(QMainWindow):
         self._right = right = QVBoxLayout()
         right.setSpacing(SPACE)
         right.addWidget(self.room, 1)
+        for bar in (self.compare, self.play):
+            bar.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Maximum)
+            right.addWidget(bar)
         middle.addLayout(right, 1)
         body = QWidget(self)
         body.setObjectName("window")
@@ -203,24 +222,37 @@ class MainWindow(QMainWindow):
         self.column.addWidget(self.top)
         self.column.addLayout(middle, 1)
         self.column.addWidget(self.status)
-        self.edge = StageEdge(self.room.stage, (self.play, self.compare, self.banner), body)
+        self.edge = StageEdge(self.room.stage, (self.banner,), body)
         self.setCentralWidget(body)
         self.resize(*FIRST_SIZE)
 
+    def begin_again(self) -> "StartScreen":
+        """Show the first lens in the first workspace, with the ways to begin; undo leads back."""
+        state = replace(first_state(), display=self.store.state.display, choices=self.store.state.choices)
+        self.presentation.stop()
+        self.store.replace(with_workspace(state, "explore", WORKSPACES["explore"]))
+        return self.show_start()
+
     def show_start(self) -> "StartScreen":
-        """Show the ways to begin."""
+        """Show the ways to begin beside the picture, whose field moves once by itself where motion is welcome."""
+        from p2sf_explorer.window.reduced_motion import reduced_motion
         from p2sf_explorer.window.start_screen import Beginnings, StartScreen
 
         ways = Beginnings(
-            look=self.top.lens.open_gallery,
-            course=self.course.open_list,
-            teach=self.teaching.open_list,
-            open=self.commands.ask_open,
-            measure=lambda: self.take_stage("measured"),
+            learn=self.teaching.open_list, photo=lambda: self.workspaces.choose("image"), open=self.commands.ask_open
         )
-        shown = StartScreen(ways, self._theme, self)
+        if self._start:
+            self._start.leave()
+        half_um = self._panel("psf", PsfPanel).half_um
+        self._start = shown = StartScreen(
+            ways, self.store, self.foot, self._theme, self.room.rail, half_um, reduced_motion()
+        )
+        shown.left.connect(self._on_start_left)
         shown.begin()
         return shown
+
+    def _on_start_left(self) -> None:
+        self._start = None
 
     def fit_screen(self) -> None:
         """Take the first size, at the present scale of type, as far as the screen has room for it and its frame."""
@@ -247,6 +279,7 @@ class MainWindow(QMainWindow):
         self.top.show_state(state, self._theme)
         self.top.tolerance.show_live(live)
         self.controls.show_live(self._answers.a)
+        self.foot.show_live(self._answers.a)
         self.caption.show_parts(caption(live), state.display.caption, live.quality == "preview")
         for key in self._visible():
             paint(self.panels[key], key, live)
@@ -275,6 +308,7 @@ class MainWindow(QMainWindow):
         self._sum(state, None)
         self.measuring.watch(None)
         self.controls.show_none()
+        self.foot.show_none()
         self.caption.show_parts({}, state.display.caption, False)
         self.status.show_none(why)
         self.second.stop()
@@ -460,15 +494,15 @@ class MainWindow(QMainWindow):
     def _parts(self) -> tuple[QWidget, ...]:
         """Return the parts of the window in the order in which the keyboard goes through them."""
         satellites = self.room.satellites[: len(self.display.rail)]
-        return self.top, self.left, self.compare, self.play, self.room.stage, *satellites, self.tabs
+        beside = (self._start,) if self._start else (*satellites, self.tabs)
+        return self.top, self.left, self.room.stage, *beside, self.compare, self.play
 
     def _present(self) -> None:
         """Begin or end presenting: larger type on the stage, nothing beside it, only sliders in the controls."""
         on = self.presentation.on
-        larger = replace(self._theme, scale=LARGER * self._theme.scale)
-        self.room.stage.setStyleSheet(stylesheet(larger) if on else "")
-        self.caption.restyle(larger if on else self._theme, self.screen().size().height() if on else 0)
+        self._style_stage()
         self.controls.make_slim(on)
+        self.foot.setVisible(not on)
         self._placed_from = None
         self.refresh(self.store.state)
         self.hall.present(on, self.presentation.beside)
@@ -532,7 +566,15 @@ class MainWindow(QMainWindow):
         self.edge.rescale(self._theme.scale)
         self.top.tolerance.restyle(self._theme)
         self.status.restyle(self._theme)
-        self.caption.restyle(self._theme)
+        self._style_stage()
+        self.foot.restyle(self._theme)
+
+    def _style_stage(self) -> None:
+        """Give the stage and its caption the present theme: larger while presenting."""
+        on = self.presentation.on
+        theme = replace(self._theme, scale=LARGER * self._theme.scale) if on else self._theme
+        self.room.stage.setStyleSheet(stylesheet(theme) if on else "")
+        self.caption.restyle(theme, self.screen().size().height() if on else 0)
 
     def _style(self, key: str) -> None:
         """Give a panel the present theme, when it is first shown after a change."""

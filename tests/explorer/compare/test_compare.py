@@ -157,7 +157,7 @@ def test_ctrl_b_pins_and_every_panel_shows_the_side_asked_for(both, qtbot):
             "coefficients": np.array(list(panels["coefficients"].bars.values.values())),
         }
         assert {"a": "A", "b": "B", "difference": "A − B", "both": "A"}[side] in panels["psf"].badge.text()
-        named = both.controls.sentence.text().startswith("A: "), both.controls.facts.rows[0][0] == "A"
+        named = both.foot.sentence.text().startswith("A: "), both.controls.facts.rows[0][0] == "A"
         assert named == (side != "a",) * 2, "the column at the left is A's, whatever is on screen"
     for name in shown["a"]:
         assert not np.array_equal(shown["a"][name], shown["b"][name])

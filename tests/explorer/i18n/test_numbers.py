@@ -27,7 +27,7 @@ def test_no_line_end_parts_a_number_from_its_unit(text, kept):
 
 
 def test_the_sentence_on_the_dominant_term_breaks_at_no_unit(window):
-    assert "\u00a0%" in window.controls.sentence.text() and " %" not in window.controls.sentence.text()
+    assert "\u00a0%" in window.foot.sentence.text() and " %" not in window.foot.sentence.text()
 
 
 def test_the_reasons_of_a_plan_name_its_channels_in_german():

@@ -36,7 +36,7 @@ def test_no_picture_and_no_figure_of_the_lens_before_is_left(without):
         assert overlay.geometry().contains(without.panels[key].widget.rect().center())
         assert not data_of(without.panels[key].widget), "nor copied"
     assert {str(value) for _, value, _ in without.controls.facts.rows} == {UNKNOWN}
-    assert not without.controls.sentence.text() and without.controls.rows["field_deg"].note.text() == UNKNOWN
+    assert not without.foot.sentence.text() and without.controls.rows["field_deg"].note.text() == UNKNOWN
     assert without.status.facts.text() == UNKNOWN and not without.caption.text
 
 

@@ -91,5 +91,5 @@ def test_file_takes_everything_back(window, shape, qtbot):
 def test_unfolded_it_cuts_no_sentence_below(window, shape):
     window.store.update(method="auto", blades=6, vanes=3, apodisation=0.8)
     QApplication.processEvents()
-    for part in (window.controls.sentence, window.controls.detail):
+    for part in (window.foot.sentence, window.controls.detail):
         assert part.text() and part.height() >= part.heightForWidth(part.width())

@@ -223,30 +223,32 @@ def places(window) -> dict[int, tuple[int, int, int, int]]:
 
 
 @pytest.mark.parametrize("size", [(1280, 800), (1920, 1080)])
-def test_nothing_moves_when_bars_come_and_go(window, size):
-    """An error, A and B, the player: they float over the stage's edge, within the window."""
+def test_a_message_moves_nothing_and_bars_stand_outside_the_panels(window, size):
+    """An error floats over the line under the stage; A and B and the player stand below stage and rail."""
     window.resize(*size)
     window.store.replace(with_workspace(window.store.state, "explore", WORKSPACES["explore"]))
     QApplication.processEvents()
     before, first = places(window), window.store.state
-    window.store.replace(pin(first))
-    window.store.update(playback_slider="field_deg")
     window.refuse(Message("a depth of {depth}", depth="-5 mm"))
     QApplication.processEvents()
-    bars = window.banner, window.compare, window.play
-    assert all(bar.isVisible() and window.rect().contains(bar.mapTo(window, bar.rect().center())) for bar in bars)
-    assert all(bar.height() >= bar.minimumSizeHint().height() for bar in bars)
     stage, edge = window.room.stage, window.edge
     left = (edge.mapTo(window, QPoint()) - stage.mapTo(window, QPoint())).x()
     assert left >= 0 and left + edge.width() <= stage.width(), "over the stage alone"
     chart = window.panels["psf"].map.chart
-    floor = chart.mapTo(window, chart.area.bottomLeft().toPoint()).y()
-    assert edge.mapTo(window, QPoint(0, edge.height())).y() <= floor + 4, "and above the picture's axis"
+    floor = chart.mapTo(window, QPoint(0, chart.height())).y()
+    assert edge.mapTo(window, QPoint()).y() >= floor, "and below the picture with its axis"
     after = places(window)
     assert {key: at for key, at in before.items() if key in after and after[key] != at} == {}
+    window.store.replace(pin(first))
+    window.store.update(playback_slider="field_deg")
+    QApplication.processEvents()
+    for bar in (window.compare, window.play):
+        assert bar.isVisible() and bar.height() >= bar.minimumSizeHint().height()
+        assert window.rect().contains(bar.mapTo(window, bar.rect().bottomRight()))
+        assert bar.mapTo(window, QPoint()).y() >= window.room.mapTo(window, QPoint(0, window.room.height())).y()
     window.store.replace(first)
     QApplication.processEvents()
-    assert not window.edge.isVisible()
+    assert not window.edge.isVisible() and places(window) == before
     window.resize(1440, 900)
 
 

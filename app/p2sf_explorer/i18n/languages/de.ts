@@ -73,27 +73,26 @@
 <message><source>Add a step that shows what is on screen now</source><translation>Einen Schritt anfügen, der zeigt, was jetzt zu sehen ist</translation></message>
 <message><source>Add the steps of undo</source><translation>Schritte von Rückgängig anfügen</translation></message>
 <message><source>Add what is on screen</source><translation>Anfügen, was zu sehen ist</translation></message>
-<message><source>Begin with the window as it is (Esc); this does not come again</source><translation>Mit dem Fenster anfangen, wie es ist (Esc); diese Frage kommt nicht wieder</translation></message>
-<message><source>Choose among lenses from the singlet to the zoom</source><translation>Unter Objektiven wählen, von der Einzellinse bis zum Zoom</translation></message>
-<message><source>Drag depth, field and wavelength; the picture follows. Where do you want to begin?</source><translation>Abstand, Feld und Wellenlänge ziehen, und das Bild folgt. Wo soll es losgehen?</translation></message>
 <message><source>Each step keeps what is on screen: go on in the window, and add the next step here. What you write is Markdown.</source><translation>Jeder Schritt behält, was zu sehen ist: im Fenster weitergehen und hier den nächsten Schritt anfügen. Geschrieben wird in Markdown.</translation></message>
 <message><source>Field {field}</source><translation>Feld {field}</translation></message>
 <message><source>Film of random builds…</source><translation>Film von zufällig gebauten Objektiven …</translation></message>
 <message><source>Film of the sweep…</source><translation>Film des Durchlaufs …</translation></message>
 <message><source>Find a command, a panel, a lens, a lesson or a preset</source><translation>Einen Befehl, eine Ansicht, ein Objektiv, eine Lektion oder ein Beispiel finden</translation></message>
 <message><source>Heading</source><translation>Überschrift</translation></message>
-<message><source>How the light of a point spreads, live</source><translation>Wie sich das Licht eines Punktes verteilt, live</translation></message>
 <message><source>In one sentence</source><translation>In einem Satz</translation></message>
+<message><source>Learn</source><translation>Lernen</translation></message>
+<message><source>A photo through a lens</source><translation>Ein Foto durch ein Objektiv</translation></message>
+<message><source>What a lens makes of a scene, near and far</source><translation>Was ein Objektiv aus einer Szene macht, nah und fern</translation></message>
+<message><source>Open my lens</source><translation>Mein Objektiv öffnen</translation></message>
+<message><source>First picture, and where to begin</source><translation>Erstes Bild, und wo es losgeht</translation></message>
+<message><source>One star, as this lens shows it {angle}° off its axis. Drag Field: at 0° the star is round.</source><translation>Ein Stern, wie ihn dieses Objektiv {angle}° neben der Achse zeigt. Feld auf 0° ziehen: Er ist rund.</translation></message>
 <message><source>Lessons with pictures, three minutes each</source><translation>Lektionen mit Bildern, je drei Minuten</translation></message>
 <message><source>List of lessons…</source><translation>Liste der Lektionen …</translation></message>
-<message><source>Look at a lens</source><translation>Ein Objektiv ansehen</translation></message>
 <message><source>Made on {date}</source><translation>Erstellt am {date}</translation></message>
 <message><source>Make a lesson of this</source><translation>Daraus eine Lektion machen</translation></message>
 <message><source>Make a lesson of this…</source><translation>Daraus eine Lektion machen …</translation></message>
-<message><source>Measure a photo</source><translation>Ein Foto messen</translation></message>
 <message><source>Mirrors</source><translation>Spiegel</translation></message>
 <message><source>No lesson has these words; try fewer.</source><translation>Keine Lektion enthält diese Wörter; weniger versuchen.</translation></message>
-<message><source>Open my lens file</source><translation>Eigene Objektivdatei öffnen</translation></message>
 <message><source>PSF as data, or a picture of the window…</source><translation>PSF als Daten, oder ein Bild des Fensters …</translation></message>
 <message><source>Phone</source><translation>Telefon</translation></message>
 <message><source>Remove the chosen step</source><translation>Den gewählten Schritt entfernen</translation></message>
@@ -218,7 +217,6 @@
 <message><source>Set up again</source><translation>Neu einstellen</translation></message>
 <message><source>Show the next hint; the file of results counts them</source><translation>Den nächsten Hinweis zeigen; die Ergebnisdatei zählt sie</translation></message>
 <message><source>Show the solution</source><translation>Lösung zeigen</translation></message>
-<message><source>Six lectures with tasks, to work through or to give</source><translation>Sechs Vorlesungen mit Aufgaben, zum Durcharbeiten oder zum Halten</translation></message>
 <message><source>There are no answers yet; work through a lecture first</source><translation>Noch gibt es keine Antworten; zuerst eine Vorlesung durcharbeiten</translation></message>
 <message><source>Up</source><translation>Nach oben</translation></message>
 <message><source>Work through the lectures alone, or give them with F5. Answers are kept on this computer, and sent nowhere.</source><translation>Zum Durcharbeiten, oder zum Halten mit F5. Antworten bleiben auf diesem Rechner und werden nirgendwohin geschickt.</translation></message>
@@ -289,7 +287,6 @@
 <message><source>field 34° is beyond 14°, the largest; type a smaller one</source><translation>Feld 34° liegt jenseits von 14°, dem größten; ein kleineres eingeben</translation></message>
 <message><source>Show only such lenses; press again for all</source><translation>Nur solche Objektive zeigen; noch einmal drücken für alle</translation></message>
 <message><source>Shows coma</source><translation>Zeigt Koma</translation></message>
-<message><source>Skip</source><translation>Überspringen</translation></message>
 <message><source>Steps of the lesson</source><translation>Schritte der Lektion</translation></message>
 <message><source>Telephoto</source><translation>Teleobjektiv</translation></message>
 <message><source>Text</source><translation>Text</translation></message>
@@ -301,7 +298,6 @@
 <message><source>there are both [filters] and [[channel]]; keep one of them</source><translation>es gibt [filters] und [[channel]]; nur eines davon behalten</translation></message>
 <message><source>there is no {key}; write a table [filters] with curves = "FILE.csv" under it</source><translation>{key} fehlt; eine Tabelle [filters] mit curves = "DATEI.csv" darunter schreiben</translation></message>
 <message><source>Title</source><translation>Titel</translation></message>
-<message><source>Wavefronts from a photograph of points</source><translation>Wellenfronten aus der Aufnahme von Punkten</translation></message>
 <message><source>What the stage shows; right-click to choose the parts of this line</source><translation>Was die Bühne zeigt; Rechtsklick wählt die Teile dieser Zeile</translation></message>
 <message><source> ({count} fr.)</source><translation> ({count} Ringe)</translation></message>
 <message><source>"{entry}" sets nothing; write entries such as field_deg 10, tab mtf</source><translation>"{entry}" stellt nichts ein; Einträge schreiben wie field_deg 10, tab mtf</translation></message>

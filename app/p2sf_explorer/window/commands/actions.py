@@ -37,10 +37,11 @@ if TYPE_CHECKING:
 
 COPIED, NO_DATA = Message("The panel's data are on the clipboard"), Message("This panel has no numbers")
 HANDBOOK = "Handbook: the page of what has the focus"
+BEGIN = "First picture, and where to begin"
 COURSE, LESSONS, MAKE_LESSON = "Course…", "List of lessons…", "Make a lesson of this…"
 FILM, PRESENT = "Film of the sweep…", "Present: the stage on the full screen, or back (Esc)"
 REPORT = "Report as PDF, HTML or JSON…"
-IN_MENU = "Find a command…", REPORT, COURSE, LESSONS, MAKE_LESSON, PRESENT, FILM, HANDBOOK, "Shortcuts"
+IN_MENU = "Find a command…", REPORT, COURSE, LESSONS, MAKE_LESSON, PRESENT, FILM, HANDBOOK, "Shortcuts", BEGIN
 NO_MASK = "Clear pupil: no obscuration, blades, vanes, apodisation or cubic phase"
 REPORT_FILES = "Report as PDF (*.pdf);;Report as HTML (*.html);;Report as JSON (*.json)"
 STATE_FILES = "Explorer states (*.json)"
