@@ -1,4 +1,4 @@
-"""The lectures and the concept check as lessons: Markdown files of this folder. No Qt in here."""
+"""The lectures and both forms of the concept check as lessons: Markdown files of this folder. No Qt in here."""
 
 from collections.abc import Iterable
 from dataclasses import replace
@@ -7,26 +7,19 @@ from hashlib import sha256
 from pathlib import Path
 
 from p2sf.errors import P2SFError
-from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.lessons.lesson import ENGLISH, Lesson, found_lessons, lesson_files
 from p2sf_explorer.lessons.task import Exercise
 
 FOLDER = Path(__file__).parent
-CHECK = "check"
-BEFORE, AFTER = "check_before", "check_after"
+CHECKS = BEFORE, AFTER = "check_before", "check_after"
 
 
 def find_lectures(language: str = ENGLISH, folder: Path = FOLDER) -> tuple[dict[str, Lesson], tuple[P2SFError, ...]]:
-    """Return the lectures by name, the concept check before and after them, and the errors of files that are none."""
+    """Return the lectures between both forms of the concept check, by name, and the errors of files that are none."""
     found, faults = found_lessons((folder,), language)
-    check = found.pop(CHECK, None)
-    if check is None:
-        return found, faults
-    before = replace(
-        check, name=BEFORE, title=tr("Before the course: {title}", title=check.title), attempts=1, silent=True
-    )
-    after = replace(check, name=AFTER, title=tr("After the course: {title}", title=check.title), attempts=1)
-    return {BEFORE: before, **found, AFTER: after}, faults
+    before, after = ({name: found.pop(name)} if name in found else {} for name in CHECKS)
+    first = {name: replace(check, attempts=1, silent=True) for name, check in before.items()}
+    return first | found | {name: replace(check, attempts=1) for name, check in after.items()}, faults
 
 
 def tasks_of(lesson: Lesson) -> tuple[Exercise, ...]:

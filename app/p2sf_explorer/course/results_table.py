@@ -77,6 +77,34 @@ def concept_gain(table: ResultTable) -> Gain | None:
     return Gain(len(shares), before, after)
 
 
+def item_gains(table: ResultTable) -> dict[str, Gain]:
+    """Return what a class gains in each item of the concept check, of those who answered both of its forms."""
+    names = dict.fromkeys(
+        name for task in table.tasks for lesson, _, name in [task.partition(JOINT)] if lesson == BEFORE
+    )
+    gains = {}
+    for name in names:
+        pairs = [(result.record(BEFORE, name), result.record(AFTER, name)) for _, result in table.rows]
+        both = [(before.right, after.right) for before, after in pairs if before.answers and after.answers]
+        if both:
+            before, after = (sum(column) / len(both) for column in zip(*both, strict=True))
+            gains[name] = Gain(len(both), before, after)
+    return gains
+
+
+def sure_but_wrong(table: ResultTable, name: str) -> tuple[int, int]:
+    """Return how many were wrong in an item and rather sure of it, before the course and after.
+
+    A wrong answer that somebody is sure of is a misconception, and not a gap.
+    """
+
+    def count(lesson: str) -> int:
+        records = [result.record(lesson, name) for _, result in table.rows]
+        return sum(not one.right and one.answers[0].split()[2:] > ["2"] for one in records if one.answers)
+
+    return count(BEFORE), count(AFTER)
+
+
 def read_folder(folder: Path, known: Sequence[tuple[str, str]] = ()) -> ResultTable:
     """Return the table of a folder's .json files; ExportError where there is no such folder, or no results in it.
 

@@ -18,7 +18,7 @@ from PySide6.QtWidgets import (
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
 from p2sf_explorer.charts.theme import Tokens
-from p2sf_explorer.course.results_table import ResultTable, concept_gain, write_table
+from p2sf_explorer.course.results_table import ResultTable, concept_gain, item_gains, sure_but_wrong, write_table
 from p2sf_explorer.files.asking import ask_path
 from p2sf_explorer.i18n.messages import WINDOW
 from p2sf_explorer.i18n.tr import tr
@@ -28,6 +28,7 @@ from p2sf_explorer.widgets.plain_table import PlainTable
 SIZE = 900, 520
 KEY = "✓ first time · ✓ 3 third attempt · ✗ 2 not in two · ◌ solution shown · under a task: share right"
 FIRST = 3  # columns before the tasks
+ITEM_HEADS = ("Item", "Students", "Right before", "Right after", "Gain", "Sure and wrong")
 
 
 class ResultsWindow(QDialog):
@@ -68,11 +69,28 @@ class ResultsWindow(QDialog):
         column = QVBoxLayout(self)
         for part in (key, self.table, self.faults):
             column.addWidget(part)
+        self.items = self._item_table()
+        self.items.setVisible(bool(self.items.rowCount()))
+        column.addWidget(self.items)
         column.addLayout(foot)
+
+    def _item_table(self) -> PlainTable:
+        """Return the items of the concept check with what was gained in each."""
+        gains = item_gains(self._table)
+        made = PlainTable(ITEM_HEADS, "Gain in each item of the concept check")
+        made.setRowCount(len(gains))
+        for row, (name, gain) in enumerate(gains.items()):
+            sure = " → ".join(map(str, sure_but_wrong(self._table, name)))
+            shares = (f"{100 * share:.0f} %" for share in (gain.before, gain.after))
+            made.put(row, 0, name)
+            for column, text in enumerate((str(gain.count), *shares, _signed(gain.share_gained), sure), 1):
+                made.put(row, column, text, right=True)
+        return made
 
     def restyle(self, theme: Tokens) -> None:
         """Take the scale of a theme."""
         self.table.restyle(theme)
+        self.items.restyle(theme)
         self.resize(*(theme.px(side) for side in SIZE))
 
     def _head(self) -> None:
@@ -130,9 +148,13 @@ def count_words(table: ResultTable) -> str:
         count=gain.count,
         before=f"{100 * gain.before:.0f} %",
         after=f"{100 * gain.after:.0f} %",
-        gain=f"{gain.share_gained:.2f}".replace("-", "−"),
+        gain=_signed(gain.share_gained),
     )
     return f"{words} · {both}"
+
+
+def _signed(gain: float) -> str:
+    return f"{gain:.2f}".replace("-", "−")
 
 
 def sign(record: TaskRecord) -> str:

@@ -14,11 +14,20 @@ from p2sf.files.writing import check_own, write_beside
 from p2sf.messages import Message, Style
 from p2sf_explorer.compute.layout import layout
 from p2sf_explorer.compute.setup import paraxial_setup
-from p2sf_explorer.course.lectures import CHECK, FOLDER
+from p2sf_explorer.course.lectures import BEFORE, CHECKS, FOLDER
 from p2sf_explorer.files.snapshot import write_state
 from p2sf_explorer.i18n.language import texts
 from p2sf_explorer.lessons.lesson import ENGLISH, Lesson, Step, found_lessons
-from p2sf_explorer.lessons.task import ChoiceAnswer, Exercise, GoalAnswer, NumericAnswer, OrderAnswer, display_order
+from p2sf_explorer.lessons.task import (
+    SURE,
+    ChoiceAnswer,
+    Exercise,
+    GoalAnswer,
+    NumericAnswer,
+    OrderAnswer,
+    display_order,
+    reason_order,
+)
 from p2sf_explorer.lessons.typed_numbers import written_value
 from p2sf_explorer.report.figures import draw_lens
 from p2sf_explorer.report.pages import A4, EDGE_MM, HEADING, Lettering, Paper, Sheet, pdf_of, wrap_lines
@@ -106,7 +115,7 @@ def lecture_sheets(lecture: Lesson, paper: Paper = A4, solved: bool = False) -> 
         if len(trial.pages) == 1:  # a step that fits a page is not split
             out.keep(trial.page.y - EDGE_MM + GAP_MM)
         out.gap(GAP_MM)
-        if lecture.name != CHECK:
+        if lecture.name not in CHECKS:
             name = _file_name(lecture, number)
             out.page.put(paper.wide_mm - EDGE_MM, out.page.y + 0.8, name, replace(SMALL, side="right"))
         _write_step(out, step, solved)
@@ -140,7 +149,7 @@ def _write_head(out: SheetWriter, lecture: Lesson, solved: bool) -> None:
     axes.set_axis_off()
     page.y += DRAWING_MM + 1
     page.write(paraxial_setup(state).lens.title, SMALL)
-    if lecture.name != CHECK:
+    if lecture.name not in CHECKS:
         page.write(
             out.sentence("Each page is in the window under Course…, and a file beside this sheet opens it."), SMALL
         )
@@ -172,6 +181,12 @@ def _write_offers(out: SheetWriter, task: Exercise, solved: bool) -> None:
             out.paragraph(answer.options[k], BODY, 2 * INDENT_MM, "☒" if picked else "☐")
             if solved and answer.hints[k]:
                 out.paragraph(answer.hints[k], SMALL, 2 * INDENT_MM)
+        if answer.reasons:
+            out.paragraph(out.sentence("Because …"))
+            for k in reason_order(task):
+                out.paragraph(answer.reasons[k], BODY, 2 * INDENT_MM, "☒" if solved and k == answer.why else "☐")
+            sure = (f"☐\u00a0{out.sentence(words)}" for words in SURE)
+            out.paragraph(f"{out.sentence('How sure are you?')} {'  '.join(sure)}")
     if isinstance(answer, OrderAnswer):
         for k in display_order(task):
             out.paragraph(answer.items[k], BODY, 3 * INDENT_MM, f"{k + 1}." if solved else "__")
@@ -208,7 +223,7 @@ def _file_name(lecture: Lesson, number: int) -> str:
 
 def sheet_languages() -> tuple[str, ...]:
     """Return the languages of the lectures."""
-    return ENGLISH, *sorted(path.name for path in FOLDER.iterdir() if (path / f"{CHECK}.md").is_file())
+    return ENGLISH, *sorted(path.name for path in FOLDER.iterdir() if (path / f"{BEFORE}.md").is_file())
 
 
 def write_course(
@@ -237,7 +252,7 @@ def write_course(
     for done, lecture in enumerate(lectures.values(), 1):
         for ending, solved in zip(ENDINGS, (False, True), strict=True):
             written.append(_write_sheets(folder / f"{lecture.name}{ending}", lecture, paper, solved))
-        if lecture.name != CHECK:
+        if lecture.name not in CHECKS:
             pages = range(len(lecture.steps))
             written += [write_state(lecture.state(k), folder / _file_name(lecture, k)) for k in pages]
         tell(done / len(lectures))

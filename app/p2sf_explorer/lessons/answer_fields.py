@@ -20,10 +20,20 @@ from PySide6.QtWidgets import (
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import local, tr
 from p2sf_explorer.lessons.offer import tool
-from p2sf_explorer.lessons.task import SEPARATOR, ChoiceAnswer, Exercise, NumericAnswer, OrderAnswer, display_order
+from p2sf_explorer.lessons.task import (
+    SEPARATOR,
+    SURE,
+    ChoiceAnswer,
+    Exercise,
+    NumericAnswer,
+    OrderAnswer,
+    display_order,
+    reason_order,
+)
 from p2sf_explorer.lessons.typed_numbers import SHOWN, prompt
 
 NUMBER = Qt.ItemDataRole.UserRole
+BESIDE = 2  # buttons with words that the narrow column takes
 LETTERS, WIDEST = 28, 200  # letters on a line of an item, and of an answer at most
 
 
@@ -86,32 +96,47 @@ class OptionLabel(QLabel):
 
 
 class OptionList(AnswerField):
-    """Options by letters, in the order of the display."""
+    """Options by letters, in the order of the display; where they are asked for, reasons by numbers, and how sure."""
 
-    def __init__(self, answer: ChoiceAnswer, order: tuple[int, ...]) -> None:
+    def __init__(self, task: Exercise, answer: ChoiceAnswer) -> None:
         super().__init__()
-        column = QVBoxLayout(self)
+        self._column = column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
-        self.group = QButtonGroup(self)
-        for place, number in enumerate(order):
-            text, row = answer.options[number], QHBoxLayout()
+        order, why = display_order(task), reason_order(task)
+        self.group = self._offer([(letter(k), answer.options[n], n) for k, n in enumerate(order)])
+        self.groups = [self.group]
+        if answer.reasons:
+            column.addWidget(QLabel(tr("Because …"), self))
+            self.groups.append(self._offer([(str(k), answer.reasons[n], n) for k, n in enumerate(why, 1)]))
+            column.addWidget(QLabel(tr("How sure are you?"), self))
+            self.groups.append(self._offer([("", tr(words), n) for n, words in enumerate(SURE)]))
+
+    def _offer(self, offers: list[tuple[str, str, int]]) -> QButtonGroup:
+        """Return buttons with their sign, text and number, one below the other; without signs in pairs."""
+        group, line = QButtonGroup(self), QHBoxLayout()
+        for sign, text, number in offers:
             button = tool("", "")
-            button.setText(letter(place))
+            button.setText(sign or text)
             button.setCheckable(True)
-            button.setAccessibleName(f"{letter(place)}: {text}")
-            self.group.addButton(button, number)
-            row.addWidget(button, 0, Qt.AlignmentFlag.AlignTop)
-            row.addWidget(OptionLabel(text, button), 1)
-            column.addLayout(row)
+            button.setAccessibleName(f"{sign}: {text}" if sign else text)
+            group.addButton(button, number)
+            line.addWidget(button, 0, Qt.AlignmentFlag.AlignTop)
+            if sign:
+                line.addWidget(OptionLabel(text, button), 1)
+            if sign or line.count() == BESIDE:
+                self._column.addLayout(line)
+                line = QHBoxLayout()
+        return group
 
     def text(self) -> str:
-        """Return the number of the option in the file, from 1; "" for none."""
-        return str(self.group.checkedId() + 1) if self.group.checkedId() >= 0 else ""
+        """Return the numbers of what is chosen, from 1 in the order of the file."""
+        return " ".join(str(group.checkedId() + 1) for group in self.groups if group.checkedId() >= 0)
 
     def show_answer(self, text: str) -> None:
-        """Choose an option."""
-        if text.isdecimal() and (button := self.group.button(int(text) - 1)):
-            button.setChecked(True)
+        """Choose what was chosen before."""
+        for group, word in zip(self.groups, text.split(), strict=False):
+            if word.isdecimal() and (button := group.button(int(word) - 1)):
+                button.setChecked(True)
 
 
 class OrderList(AnswerField):
@@ -181,5 +206,5 @@ def answer_field(task: Exercise) -> AnswerField:
     if isinstance(answer, NumericAnswer):
         return NumberFields(answer)
     if isinstance(answer, ChoiceAnswer):
-        return OptionList(answer, display_order(task))
+        return OptionList(task, answer)
     return OrderList(answer, display_order(task)) if isinstance(answer, OrderAnswer) else AnswerField()

@@ -42,6 +42,7 @@ class TaskWords:
     items: tuple[str, ...] = ()
     wrong: tuple[str, ...] = ()
     hints: tuple[str, ...] = ()
+    reasons: tuple[str, ...] = ()
 
     @property
     def shape(self) -> tuple[tuple[bool, ...], ...]:
@@ -154,27 +155,44 @@ def diagnose(value: float, wanted: float) -> Message:
     return Message("Not yet: that is too large.") if value > wanted else Message("Not yet: that is too small.")
 
 
+SURE = ("a guess", "unsure", "rather sure", "sure")
+"""How sure somebody is of an answer and its reason, from 1."""
+
+
 @dataclass(frozen=True)
 class ChoiceAnswer:
-    """Options in the order of the file, which one is right (from 0), and the hint for each of the others."""
+    """Options in the order of the file, which one is right (from 0), and the hint for each of the others.
+
+    With ``reasons``, of which the one at ``why`` is right, an answer has three numbers from 1: option, reason, and how
+    sure one is (Kaltakci-Gurel, Eryilmaz and McDermott 2017, Res. Sci. Technol. Educ. 35, 238). Option and reason both
+    have to be right.
+    """
 
     options: tuple[str, ...]
     right: int
     hints: tuple[str, ...]
+    reasons: tuple[str, ...] = ()
+    why: int = 0
 
     def judge(self, text: str, set_up: State, now: State) -> Judgement:
-        """Judge the number of an option, from 1, in the order of the file."""
-        (picked,) = _numbers(text, 1, len(self.options), "choose one of the answers")
-        return Judgement(True, RIGHT) if picked == self.right else Judgement(False, WRONG, self.hints[picked])
+        """Judge the number of an option, from 1, in the order of the file; where it is asked for, that of a reason."""
+        most = (len(self.options), len(self.reasons), len(SURE)) if self.reasons else (len(self.options),)
+        remedy = "choose an answer, a reason and how sure you are" if self.reasons else "choose one of the answers"
+        picked = _numbers(text, most, remedy)
+        if picked[0] != self.right:
+            return Judgement(False, WRONG, self.hints[picked[0]])
+        if self.reasons and picked[1] != self.why:
+            return Judgement(False, Message("Not yet: the answer is right, and its reason is not."))
+        return Judgement(True, RIGHT)
 
     @property
     def words(self) -> TaskWords:
-        """Return options and hints."""
-        return TaskWords(options=self.options, option_hints=self.hints)
+        """Return options, hints and reasons."""
+        return TaskWords(options=self.options, option_hints=self.hints, reasons=self.reasons)
 
     def with_words(self, words: TaskWords) -> "ChoiceAnswer":
-        """Return this with options and hints in another language."""
-        return ChoiceAnswer(words.options, self.right, words.option_hints)
+        """Return this with its texts in another language."""
+        return replace(self, options=words.options, hints=words.option_hints, reasons=words.reasons)
 
 
 @dataclass(frozen=True)
@@ -186,7 +204,7 @@ class OrderAnswer:
 
     def judge(self, text: str, set_up: State, now: State) -> Judgement:
         """Judge the numbers of the items, from 1 in the order of the file, in the order that they are given."""
-        order = _numbers(text, len(self.items), len(self.items), "put all items into an order")
+        order = _numbers(text, (len(self.items),) * len(self.items), "put all items into an order")
         if len(set(order)) != len(order):
             raise P2SFError("put all items into an order")
         misplaced = [(a, b) for a, b in pairwise(order) if a > b]
@@ -268,10 +286,11 @@ def unmet(claim: Claim, value: float) -> Message:
     )
 
 
-def _numbers(text: str, count: int, most: int, remedy: str) -> tuple[int, ...]:
-    """Return whole numbers from 1 to ``most``, counted from 0; P2SFError, whose text is ``remedy``, for other texts."""
+def _numbers(text: str, most: tuple[int, ...], remedy: str) -> tuple[int, ...]:
+    """Return whole numbers, each from 1 to one of ``most``, counted from 0; P2SFError, ``remedy``, for other texts."""
     words = text.split()
-    if len(words) != count or not all(word.isdecimal() and 1 <= int(word) <= most for word in words):
+    limits = zip(words, most, strict=False)
+    if len(words) != len(most) or not all(word.isdecimal() and 1 <= int(word) <= limit for word, limit in limits):
         raise P2SFError(Message(remedy))
     return tuple(int(word) - 1 for word in words)
 
@@ -306,6 +325,11 @@ def shuffle(count: int, seed: str) -> tuple[int, ...]:
     """Return 0 … count − 1 in an order that a name gives, the same everywhere, and never as they are counted."""
     order = tuple(sorted(range(count), key=lambda k: crc32(f"{seed} {k}".encode())))
     return order if order != tuple(range(count)) else order[1:] + order[:1]
+
+
+def reason_order(task: Exercise) -> tuple[int, ...]:
+    """Return the numbers of reasons, from 0, in the order in which windows and sheets show them."""
+    return shuffle(len(task.words.reasons), f"{task.name} why")
 
 
 def display_order(task: Exercise) -> tuple[int, ...]:

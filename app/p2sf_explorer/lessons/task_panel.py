@@ -97,7 +97,7 @@ class TaskPanel(QFrame):
         self.field.setEnabled(not view.closed)
         self.check.setVisible(not view.closed)
         self.again.setVisible(not view.closed and (isinstance(task.answer, GoalAnswer) or bool(task.see)))
-        self.because.setVisible(isinstance(task.answer, ChoiceAnswer) and bool(record.answers) and not view.silent)
+        self.because.setVisible(bool(record.answers) and not view.silent and asks_why(task))
         self._show_hints(view)
 
     def _show_earlier(self, view: TaskView) -> None:
@@ -135,3 +135,8 @@ class TaskPanel(QFrame):
         self.verdict.setVisible(bool(words))
         if words:
             self.judged.emit()
+
+
+def asks_why(task: Exercise) -> bool:
+    """Return whether a reason is wanted in the student's own words: of a choice that offers none."""
+    return isinstance(task.answer, ChoiceAnswer) and not task.answer.reasons

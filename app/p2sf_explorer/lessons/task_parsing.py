@@ -19,9 +19,9 @@ from p2sf_explorer.lessons.task import (
 from p2sf_explorer.lessons.typed_numbers import F_NUMBER, is_unit, unit_of, units_like
 
 KINDS = ("answer", "choose", "order", "goal")
-TASK = ("task", *KINDS, "solve", "see", "wrong", "hint")
-TASK_WORDS = ("task", "answer", "choose", "order", "wrong", "hint")
-BELONGS = {"wrong": ("answer", "order", "goal"), "solve": ("goal",)}  # and to no other kind
+TASK = ("task", *KINDS, "solve", "see", "wrong", "hint", "because")
+TASK_WORDS = ("task", "answer", "choose", "order", "wrong", "hint", "because")
+BELONGS = {"wrong": ("answer", "order", "goal"), "solve": ("goal",), "because": ("choose",)}  # and to no other kind
 NAME = re.compile(r"[a-z0-9][a-z0-9_-]*")
 AMOUNT = r"[-−+]?\d+(?:[.,]\d+)?(?:e[-+]?\d+)?"
 NUMERIC = re.compile(
@@ -59,7 +59,7 @@ def parse_task(found: Mapping[str, Lines], where: str) -> Exercise | None:
 
 def parse_words(found: Mapping[str, Lines]) -> tuple[str, TaskWords]:
     """Return the name of a task, "" where there is none, and its texts in the file of another language."""
-    options = [option for _, text in found["choose"] for option in _options(text)]
+    options = _all_options(found["choose"])
     labels = tuple(_with_hint(text)[1] for _, text in found["answer"])
     words = TaskWords(
         labels=labels if any(labels) else (),
@@ -68,6 +68,7 @@ def parse_words(found: Mapping[str, Lines]) -> tuple[str, TaskWords]:
         items=tuple(item for _, text in found["order"] for item in _items(text)),
         wrong=tuple(_with_hint(text)[1] for _, text in found["wrong"]),
         hints=tuple(text for _, text in found["hint"]),
+        reasons=tuple(reason.removeprefix(PICKED).strip() for reason, _ in _all_options(found["because"])),
     )
     return (found["task"][0][1] if found["task"] else ""), words
 
@@ -86,6 +87,10 @@ def _with_hint(text: str) -> tuple[str, str]:
 
 def _options(text: str) -> list[tuple[str, str]]:
     return [_with_hint(option) for option in text.split(BETWEEN) if option.strip()]
+
+
+def _all_options(lines: Lines) -> list[tuple[str, str]]:
+    return [option for _, text in lines for option in _options(text)]
 
 
 def _items(text: str) -> list[str]:
@@ -156,13 +161,18 @@ def _hint(text: str, number: int, where: str) -> str:
 
 
 def _choice(found: Mapping[str, Lines], where: str) -> Answer:
-    number = found["choose"][0][0]
-    options = [option for _, text in found["choose"] for option in _options(text)]
+    texts, right, hints = _picked(found["choose"], where)
+    reasons, why, _ = _picked(found["because"], where) if found["because"] else ((), 0, ())
+    return ChoiceAnswer(texts, right, hints, reasons, why)
+
+
+def _picked(lines: Lines, where: str) -> tuple[tuple[str, ...], int, tuple[str, ...]]:
+    """Return the options of some lines, the number of the one with a star, from 0, and their hints."""
+    options = _all_options(lines)
     right = [k for k, (text, _) in enumerate(options) if text.startswith(PICKED)]
     if len(options) < 2 or len(right) != 1:
-        raise fault(where, number, "a choice has two options or more, and a star before the right one")
-    texts = tuple(text.removeprefix(PICKED).strip() for text, _ in options)
-    return ChoiceAnswer(texts, right[0], tuple(hint for _, hint in options))
+        raise fault(where, lines[0][0], "a choice has two options or more, and a star before the right one")
+    return tuple(text.removeprefix(PICKED).strip() for text, _ in options), right[0], tuple(h for _, h in options)
 
 
 def _order(found: Mapping[str, Lines], where: str) -> Answer:

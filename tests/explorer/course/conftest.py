@@ -1,6 +1,6 @@
 import pytest
 
-from p2sf_explorer.course.lectures import find_lectures
+from p2sf_explorer.course.lectures import CHECKS, find_lectures
 from p2sf_explorer.lessons import controller
 from tests.explorer.course.test_tasks import LECTURE
 
@@ -28,7 +28,8 @@ def teaching(window, tmp_path, monkeypatch):
     folder = tmp_path / "course"
     folder.mkdir()
     (folder / "lecture_1.md").write_text(LECTURE, encoding="utf-8")
-    (folder / "check.md").write_text(CHECK, encoding="utf-8")
+    for form in CHECKS:
+        (folder / f"{form}.md").write_text(CHECK, encoding="utf-8")
     monkeypatch.setattr(window.teaching, "_find_lectures", lambda language: find_lectures(language, folder))
     monkeypatch.setattr(window.teaching, "_lectures", None)
     monkeypatch.setattr(controller.recent, "recent_path", lambda: tmp_path / "recent.json")

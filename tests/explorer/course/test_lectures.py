@@ -4,10 +4,11 @@ import re
 
 import pytest
 
+from p2sf.errors import P2SFError
 from p2sf_explorer.compute import live as compute
 from p2sf_explorer.compute.quantities import QUANTITIES
 from p2sf_explorer.compute.setup import state_ranges
-from p2sf_explorer.course.lectures import CHECK, FOLDER, tasks_of
+from p2sf_explorer.course.lectures import AFTER, BEFORE, CHECKS, FOLDER, find_lectures, tasks_of
 from p2sf_explorer.i18n.language import texts
 from p2sf_explorer.lessons.changes import apply_changes, read_changes
 from p2sf_explorer.lessons.claims import holds, measure_claim
@@ -27,6 +28,7 @@ CLAIMS = [
 TASKS = [
     pytest.param(lesson.state(number), step.task, id=step.task.name) for lesson, number, step in STEPS if step.task
 ]
+LECTURE = re.compile(r"Lecture (\d)\. ")
 NUMBER = re.compile(r"\d+(?:[.,]\d+)*")
 EMPHASISED = re.compile(r"(?<!\*)\*([^*]+)\*(?!\*)")
 FORESEEN = 40
@@ -54,8 +56,11 @@ def test_right_answers_are_right_and_foreseen_wrong_ones_get_their_own_hint(stat
         right = [str(part.target(state)) for part in answer.parts]
         wrong = [(f"{part.target(state)} {part.unit}", hint) for part, hint in answer.wrong]
     elif isinstance(answer, ChoiceAnswer):
-        right = [str(answer.right + 1)]
-        wrong = [(str(k + 1), hint) for k, hint in enumerate(answer.hints) if k != answer.right]
+        why = f" {answer.why + 1} 4" if answer.reasons else ""
+        right = [f"{answer.right + 1}{why}"]
+        wrong = [
+            (f"{k + 1}{why}", hint) for k, hint in enumerate(answer.hints) if k != answer.right and any(answer.hints)
+        ]
     elif isinstance(answer, OrderAnswer):
         right = [" ".join(str(k + 1) for k in range(len(answer.items)))]
         wrong = [(" ".join(str(k + 1) for k in order), hint) for order, hint in answer.wrong]
@@ -80,20 +85,43 @@ def test_an_untouched_page_is_not_told_that_a_slider_was_moved():
     assert not judged.right and judged.hint not in [hint for _, hint in task.answer.wrong]
 
 
-def test_there_are_six_lectures_of_three_tasks_and_ten_questions():
-    lectures = [lesson for lesson in LECTURES if lesson.name != CHECK]
+def test_there_are_six_lectures_of_three_tasks():
+    lectures = [lesson for lesson in LECTURES if lesson.name not in CHECKS]
     assert [lesson.name for lesson in lectures] == [f"lecture_{k}" for k in range(1, 7)]
     for lesson in lectures:
         named = [step.task for step in lesson.steps if step.task and step.title.startswith("Task ")]
         assert len(named) == 3 and all(task.hints or isinstance(task.answer, ChoiceAnswer) for task in named)
         assert lesson.steps[0].note and "- " in lesson.steps[0].text
-    assert len(tasks_of(next(lesson for lesson in LECTURES if lesson.name == CHECK))) == 10
-    names = [task.name for lesson in LECTURES for task in tasks_of(lesson)]
+    names = [task.name for lesson in LECTURES if lesson.name != AFTER for task in tasks_of(lesson)]
     assert len(set(names)) == len(names)
 
 
+def test_both_forms_of_the_check_have_twelve_items_of_every_lecture_that_are_not_the_same():
+    """An item is told by its name; its note names the lecture that it belongs to, the same in both forms."""
+    forms = [next(lesson for lesson in LECTURES if lesson.name == name) for name in (BEFORE, AFTER)]
+    before, after = ({step.task.name: step for step in form.steps} for form in forms)
+    assert len(before) == 12 and list(before) == list(after)
+    lectures = {LECTURE.match(step.note)[1] for step in before.values()}
+    assert lectures == set("123456")
+    for name, step in before.items():
+        other, (first, second) = after[name], (step.task.answer, after[name].task.answer)
+        assert step.note == other.note and step.text != other.text
+        assert first.reasons == second.reasons and len(first.reasons) == 3 and first.why == second.why
+        assert not any(first.hints) and second.right == first.right == 0 and all(second.hints[1:])
+
+
+def test_an_answer_is_right_with_its_reason_alone():
+    task = find_lectures()[0][BEFORE].steps[0].task
+    state = find_lectures()[0][BEFORE].state(0)
+    judged = {text: task.judge(text, state, state).right for text in ("1 1 1", "1 1 4", "1 2 4", "2 1 4")}
+    assert judged == {"1 1 1": True, "1 1 4": True, "1 2 4": False, "2 1 4": False}
+    for text in ("1", "1 1", "1 1 5", "1 4 1", "0 1 1", ""):
+        with pytest.raises(P2SFError, match="a reason and how sure"):
+            task.judge(text, state, state)
+
+
 def test_forty_wrong_answers_and_more_are_foreseen_each_with_a_hint_of_its_own():
-    lectures = [lesson for lesson in LECTURES if lesson.name != CHECK]
+    lectures = [lesson for lesson in LECTURES if lesson.name not in CHECKS]
     words = [task.words for lesson in lectures for task in tasks_of(lesson)]
     hints = [(*one.wrong, *filter(None, one.option_hints)) for one in words]
     assert all(len(set(one)) == len(one) for one in hints)
@@ -122,7 +150,15 @@ def told(step) -> str:
     words = step.task.words if step.task else None
     parts = [step.title, step.text, step.attempt, step.question, step.answer, step.note]
     if words:
-        parts += [*words.labels, *words.options, *words.option_hints, *words.items, *words.wrong, *words.hints]
+        parts += [
+            *words.labels,
+            *words.options,
+            *words.option_hints,
+            *words.reasons,
+            *words.items,
+            *words.wrong,
+            *words.hints,
+        ]
     return "\n".join(parts)
 
 

@@ -9,7 +9,15 @@ import pytest
 from p2sf.cli import main
 from p2sf.errors import ExportError
 from p2sf_explorer.course.lectures import course_version
-from p2sf_explorer.course.results_table import OF_TASK, PERSON, concept_gain, read_folder, write_table
+from p2sf_explorer.course.results_table import (
+    OF_TASK,
+    PERSON,
+    concept_gain,
+    item_gains,
+    read_folder,
+    sure_but_wrong,
+    write_table,
+)
 from p2sf_explorer.lessons.task_record import FORMAT, MARK, CourseResult, TaskRecord, read_result, write_result
 
 KNOWN = (("lecture_1", "airy"), ("lecture_1", "flare"), ("lecture_2", "never"))
@@ -62,11 +70,23 @@ def test_the_gain_is_hakes_of_those_who_took_both_checks(tmp_path):
         write_result(tmp_path / f"{number}.json", made)
     absent = CourseResult(name="only before").with_record("check_before", "c0", TaskRecord().with_answer("1", True))
     write_result(tmp_path / "absent.json", absent)
+    items = item_gains(read_folder(tmp_path))
+    assert [(one.before, one.after) for one in items.values()] == [(1, 1), (0.5, 1), (0.5, 1), (0, 0.5)]
     gain = concept_gain(read_folder(tmp_path))
     assert (gain.count, gain.before, gain.after, gain.share_gained) == (2, 0.5, 0.875, 0.75)
     (tmp_path / "0.json").unlink()
     (tmp_path / "1.json").unlink()
     assert concept_gain(read_folder(tmp_path)) is None
+
+
+def test_who_is_wrong_and_sure_of_it_is_counted(tmp_path):
+    """The third number of an answer is how sure one was, from 1 to 4; a guess that is wrong is no misconception."""
+    for number, (before, after) in enumerate((("2 1 4", "1 1 4"), ("2 1 2", "2 1 3"), ("1 1 4", "2 1"))):
+        made = CourseResult(name=str(number))
+        for lesson, text in (("check_before", before), ("check_after", after)):
+            made = made.with_record(lesson, "i1", TaskRecord().with_answer(text, text.startswith("1")))
+        write_result(tmp_path / f"{number}.json", made)
+    assert sure_but_wrong(read_folder(tmp_path), "i1") == (1, 1)
 
 
 def test_the_csv_has_one_row_a_student_and_the_same_numbers(folder, tmp_path):

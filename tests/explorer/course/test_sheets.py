@@ -8,7 +8,7 @@ import pytest
 from p2sf.cli import main
 from p2sf.errors import ExportError
 from p2sf_explorer.course import sheets
-from p2sf_explorer.course.lectures import CHECK, FOLDER
+from p2sf_explorer.course.lectures import BEFORE, CHECKS, FOLDER
 from p2sf_explorer.course.sheets import lecture_sheets, write_course
 from p2sf_explorer.files.opening import open_file
 from p2sf_explorer.i18n.language import texts
@@ -18,7 +18,7 @@ from p2sf_explorer.state.state import State
 from tests.support.tiers import in_tiers
 
 WORDS = re.compile(r"\w{3,}")
-EVERY = [(name, language) for name in (*(f"lecture_{k}" for k in range(1, 7)), CHECK) for language in ("en", "de")]
+EVERY = [(name, language) for name in (*(f"lecture_{k}" for k in range(1, 7)), *CHECKS) for language in ("en", "de")]
 
 
 def lecture(name: str, language: str):
@@ -33,7 +33,7 @@ def texts_on(pages) -> str:
 
 
 @pytest.mark.parametrize("paper", [A4, LETTER], ids=["a4", "letter"])
-@pytest.mark.parametrize(("name", "language"), in_tiers(EVERY, [(CHECK, "de")]))
+@pytest.mark.parametrize(("name", "language"), in_tiers(EVERY, [(BEFORE, "de")]))
 def test_nothing_runs_over_the_edges(name, language, paper):
     for solved in (False, True):
         for page in lecture_sheets(lecture(name, language), paper, solved):

@@ -11,8 +11,9 @@ from p2sf_explorer.course.lectures import AFTER, BEFORE, course_version
 from p2sf_explorer.course.results_window import FIRST
 from p2sf_explorer.i18n.language import set_language
 from p2sf_explorer.lessons import task_record
-from p2sf_explorer.lessons.answer_fields import OptionLabel
+from p2sf_explorer.lessons.answer_fields import OptionLabel, answer_field
 from p2sf_explorer.lessons.controller import progress_path
+from p2sf_explorer.lessons.task import ChoiceAnswer, Exercise
 from p2sf_explorer.lessons.task_record import CourseResult, TaskRecord, read_result, write_result
 from tests.explorer.course.test_tasks import LESSON, STEP
 
@@ -102,6 +103,22 @@ def test_after_an_answer_one_sentence_says_why_and_is_kept(qtbot, teaching, at):
     at("radius")
     assert not panel.because.isVisible()
     assert at("choice").because.text() == "it turns"
+
+
+def test_answer_reason_and_how_sure_are_chosen_one_below_the_other(qtbot):
+    answer = ChoiceAnswer(("yes", "no"), 0, ("", ""), ("because", "for", "since"), 1)
+    field = answer_field(Exercise("sure", answer))
+    qtbot.addWidget(field)
+    field.show()
+    assert field.text() == ""
+    for group, number in zip(field.groups, (0, 1, 3), strict=True):
+        qtbot.mouseClick(group.button(number), Qt.MouseButton.LeftButton)
+    assert field.text() == "1 2 4" and answer.judge(field.text(), None, None).right
+    assert {group.button(0).accessibleName() for group in field.groups} >= {"a guess"}
+    again = answer_field(Exercise("sure", answer))
+    qtbot.addWidget(again)
+    again.show_answer("1 2 4")
+    assert again.text() == "1 2 4"
 
 
 def test_items_are_moved_into_order_by_buttons(teaching, at):

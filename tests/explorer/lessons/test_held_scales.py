@@ -62,7 +62,8 @@ def half_width(image: QImage) -> int:
         ("lecture_1", 2, 6.0, 12.0, 2.0),  # "twice as wide"
         ("02_diffraction", 1, 6.0, 24.0, 4.0),  # "to f/24": the disc grows in proportion
         ("02_diffraction", 1, 6.0, 12.0, 2.0),
-        ("check", 5, 6.0, 12.0, 2.0),
+        ("check_before", 1, 6.0, 12.0, 2.0),
+        ("check_after", 1, 6.0, 12.0, 2.0),
     ],
 )
 def test_the_painted_disc_grows_as_the_page_says(window, qtbot, name, number, before, after, claimed):

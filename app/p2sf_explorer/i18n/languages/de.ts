@@ -104,8 +104,20 @@
 <message><source>"{name}" is no name of a task; use small letters, digits and hyphens</source><translation>"{name}" ist kein Name einer Aufgabe; kleine Buchstaben, Ziffern und Bindestriche verwenden</translation></message>
 <message><source>"{name}:" does not go with "{kind}:"</source><translation>"{name}:" passt nicht zu "{kind}:"</translation></message>
 <message><source>"{text}" is no answer with its tolerance; write one such as {example}</source><translation>"{text}" ist keine Antwort mit Toleranz; eine wie {example} schreiben</translation></message>
-<message><source>After the course: {title}</source><translation>Nach dem Kurs: {title}</translation></message>
-<message><source>Before the course: {title}</source><translation>Vor dem Kurs: {title}</translation></message>
+<message><source>How sure are you?</source><translation>Wie sicher sind Sie?</translation></message>
+<message><source>a guess</source><translation>geraten</translation></message>
+<message><source>unsure</source><translation>unsicher</translation></message>
+<message><source>rather sure</source><translation>eher sicher</translation></message>
+<message><source>sure</source><translation>sicher</translation></message>
+<message><source>choose an answer, a reason and how sure you are</source><translation>wählen Sie eine Antwort, einen Grund und wie sicher Sie sind</translation></message>
+<message><source>Not yet: the answer is right, and its reason is not.</source><translation>Noch nicht: Die Antwort stimmt, ihr Grund nicht.</translation></message>
+<message><source>Gain in each item of the concept check</source><translation>Gewinn bei jeder Frage der Verständnisprüfung</translation></message>
+<message><source>Gain</source><translation>Gewinn</translation></message>
+<message><source>Item</source><translation>Frage</translation></message>
+<message><source>Students</source><translation>Personen</translation></message>
+<message><source>Right before</source><translation>Vorher richtig</translation></message>
+<message><source>Right after</source><translation>Nachher richtig</translation></message>
+<message><source>Sure and wrong</source><translation>Sicher und falsch</translation></message>
 <message><source>Not yet.</source><translation>Noch nicht.</translation></message>
 <message><source>Not yet: a factor of two is wrong. Radius or diameter?</source><translation>Noch nicht: Ein Faktor zwei stimmt nicht. Radius oder Durchmesser?</translation></message>
 <message><source>Not yet: that is too large.</source><translation>Noch nicht: Das ist zu groß.</translation></message>

@@ -94,7 +94,7 @@ def _check_choice(task: Exercise, state: State) -> Iterator[Message]:
     answer = task.answer
     assert isinstance(answer, ChoiceAnswer)
     for number, (option, hint) in enumerate(zip(answer.options, answer.hints, strict=True)):
-        if number != answer.right and not hint:
+        if number != answer.right and not hint and not answer.reasons:  # an item with reasons tests, and does not teach
             yield Message("the wrong answer “{option}” has no hint; add one", option=option)
 
 
