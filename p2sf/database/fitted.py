@@ -9,7 +9,7 @@ sensor, the same for all fields: in the axes of each field, which rotate with it
 smooth about the axis. The fit of a source follows by rotating the polynomials (`turned_fit`).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from time import perf_counter
 
@@ -25,7 +25,8 @@ from p2sf.disc.domain import HALF, WHOLE, PupilDomain
 from p2sf.disc.mask import PupilMask
 from p2sf.lens.source import Source, source_at
 from p2sf.paraxial.seidel import Coefficients
-from p2sf.psf.fitted import psf_of_fit, sum_fit
+from p2sf.psf.fitted import sum_fit
+from p2sf.psf.picture import psf_of_pupil
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import suitable_pixel_um
 from p2sf.pupil.fit import UNIFORM, FittedPencil, Level, level_rays, phase_slopes
@@ -100,9 +101,8 @@ class FittedDatabase:
         found = self.fit_at(source)
         six = self.coefficients(source.depth_mm, source.field_slope, source.wavelength_um)
         pixel_um = pixel_um or float(suitable_pixel_um(six, pixels))
-        window = pixels, pixel_um
-        psf = psf_of_fit(found, source.wavelength_um, window, "settled", started)
-        return psf.with_figures(predicted_error=None)
+        psf = psf_of_pupil(found, (pixels, pixel_um)).with_figures(predicted_error=None)
+        return replace(psf, seconds=perf_counter() - started)
 
     def rendered(
         self, points: Points, sampling: Sampling, dtype: DTypeLike = np.float32, threads: int | None = None

@@ -14,11 +14,11 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.paraxial.seidel import coefficients, reason_against_coefficients
-from p2sf.psf.huygens import nodes_from
 from p2sf.psf.prediction import EDGE_ERROR, TRACED_ERROR, USELESS, error_of_six, predicted_error
 from p2sf.psf.spherical import half_window_um, is_long_comparison, plane_wave_bound, plane_wave_error
 from p2sf.pupil.cost import COLUMN_SECONDS, LAST_PASS, RAY_SECONDS
 from p2sf.pupil.fit import LEVELS, FittedPencil, behind_mask, fit_rays, level_rays, levels_for, trace_check_rays
+from p2sf.pupil.rays import nodes_from
 from p2sf.pupil.seen_mask import mask_seen
 from p2sf.pupil.smooth_pupil import all_reach
 from p2sf.raytrace.exit_sphere import exit_sphere

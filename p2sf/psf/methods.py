@@ -19,11 +19,8 @@ from p2sf.messages import Alternatives, Message
 from p2sf.parameters import check_samples
 from p2sf.paraxial.seidel import Coefficients, check_seidel, coefficients
 from p2sf.psf.choosing import AUTO_SECONDS, Choice, check_min_r2, choose
-from p2sf.psf.fitted import MOST_NODES as MOST_FITTED
-from p2sf.psf.fitted import NodesOf, psf_of_fit
 from p2sf.psf.gaussian_fit import gaussian_psf
-from p2sf.psf.huygens import MOST_NODES as MOST_RAYS
-from p2sf.psf.huygens import RayPupil, Watch, blur_um2, sum_rays
+from p2sf.psf.picture import psf_of_pupil
 from p2sf.psf.prediction import EDGE_ERROR, residual_for, seidel_error
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import WINDOW_AIRY_RADII, check_focus, check_image, check_quality, seidel_psf, suitable_pixel_um
@@ -35,15 +32,17 @@ from p2sf.psf.spherical import (
     worth_spherical,
 )
 from p2sf.psf.traced import EDGE_TOLERANCE, traced_psf
-from p2sf.psf.traced import MOST_NODES as MOST_TRACED
 from p2sf.pupil.cost import RAY_SECONDS, TABLE_SECONDS, sum_seconds
+from p2sf.pupil.fit import MOST_NODES as MOST_FITTED
 from p2sf.pupil.fit import (
     FittedPencil,
+    NodesOf,
     fit,
 )
+from p2sf.pupil.rays import MOST_INTERPOLATED, RayPupil
 from p2sf.pupil.seen_mask import mask_seen
-from p2sf.pupil.smooth_pupil import all_reach
 from p2sf.pupil.vignetting import pupil_nodes
+from p2sf.pupil.watch import MOST_RAYS, Watch
 from p2sf.raytrace.field_geometry import cone
 from p2sf.raytrace.pencil import pencil, to_the_rim
 from p2sf.raytrace.ray_field import AIRY_RADIUS
@@ -251,15 +250,15 @@ def _by_six(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
     if c is None:
         check_seidel(lens)
         c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
-    mask, nodes_of, started = mask_seen(lens, source), _nodes_within_rims(asked), perf_counter()
+    mask, nodes_of = mask_seen(lens, source), _nodes_within_rims(asked)
     if nodes_of and asked.options.sampling == "fft":
         raise SamplingError(
             "an FFT of square samples shows no edges of rims; use mdft, or leave {parameter} off", parameter="clip"
         )
     if nodes_of:
         check_image(c)
-        psf = psf_of_fit(as_fit(c, mask), source.wavelength_um, asked.window, asked.options.quality, started, nodes_of)
-        psf = replace(psf, method="seidel", numbers=6)
+        psf = psf_of_pupil(replace(as_fit(c, mask), nodes_of=nodes_of), asked.window, asked.options.quality)
+        psf = replace(psf, numbers=6)
     else:
         psf = seidel_psf(c, *asked.window, asked.options.quality, asked.options.sampling, mask=mask)
     if asked.by_hand:
@@ -288,9 +287,10 @@ def _by_fit(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
     found = asked.fit
     if found is None:
         found = fit(asked.lens, asked.source, asked.numbers, residual_waves=residual_for(asked.options.min_r2))
-    wavelength, quality = asked.source.wavelength_um, asked.options.quality
-    psf = psf_of_fit(found, wavelength, asked.window, quality, started, _nodes_within_rims(asked))
-    if quality == "preview" or psf.figures.energy is None:
+    found = replace(found, nodes_of=_nodes_within_rims(asked)) if asked.options.clip else found
+    psf = psf_of_pupil(found, asked.window, asked.options.quality)
+    psf = replace(psf, seconds=perf_counter() - started)
+    if asked.options.quality == "preview" or psf.figures.energy is None:
         return psf
     return psf.with_figures(energy=partial(_share_of_rays, psf, asked))
 
@@ -302,7 +302,7 @@ def _share_of_rays(psf: Psf, asked: PsfRequest) -> float | None:
     """
     if psf.energy is None or psf.sum_over_peak is None:
         return None
-    all_light = blur_um2(RayPupil(asked.lens, asked.source, asked.options.clip))
+    all_light = RayPupil(asked.lens, asked.source, asked.options.clip).light_um2()
     return None if all_light is None else float(psf.sum_over_peak) * psf.pixel_um**2 / all_light
 
 
@@ -320,13 +320,13 @@ def _by_spherical_waves(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
 
 
 def _by_sum(pupil: RayPupil, asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
-    settled, once = asked.options.quality == "settled", not asked.converged
-    if once and pupil.sphere and settled and not (pupil.whole and all_reach(asked.lens, asked.source)):
-        once = False  # nodes along an outline are known to suffice only where two sums agree
-    rtol = (EDGE_TOLERANCE if not asked.converged else SETTLED_TOLERANCE) if settled and not once else None
+    settled, outlined = asked.options.quality == "settled", bool(pupil.sphere) and pupil.edges
+    rtol = SETTLED_TOLERANCE if settled and asked.converged else None
+    if settled and not asked.converged and outlined:  # known to suffice only where two sums agree
+        rtol = EDGE_TOLERANCE
     left = 0.0 if asked.choice is None else FIELD_SHARE * float(np.sqrt(asked.choice.allowed_error))
     watch = Watch(cancelled=cancelled, most_seconds=asked.most_seconds, allowed=left)
-    return sum_rays(pupil, asked.window, rtol, watch, asked.options.quality)
+    return psf_of_pupil(pupil, asked.window, asked.options.quality, rtol, watch)
 
 
 def _by_gaussian(asked: PsfRequest, cancelled: Cancelled | None) -> Psf:
@@ -348,7 +348,7 @@ TRACED = Method(
     Message("traced: exact wavefront"),
     _by_traced_rays,
     previewed=True,
-    most_nodes=lambda mask: MOST_TRACED,
+    most_nodes=lambda mask: MOST_INTERPOLATED,
 )
 HUYGENS = Method(
     "huygens",

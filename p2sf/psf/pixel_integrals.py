@@ -18,8 +18,8 @@ from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
 from p2sf.parameters import check_samples
-from p2sf.psf.huygens import FRINGES_OF_SPHERES
 from p2sf.psf.methods import AUTO, REFERENCE, SPHERICAL, USUAL, PsfOptions, method_of, render, whole_pixel_um
+from p2sf.psf.picture import FRINGES_OF_SPHERES
 from p2sf.psf.result import Psf
 from p2sf.pupil.fit import level_rays, levels_for
 from p2sf.pupil.vignetting import pupil_nodes

@@ -1,14 +1,12 @@
 """The PSF of the six coefficients over a uniform circular pupil: the `seidel` method (handbook 4.1)."""
 
 from functools import partial
-from math import prod
 from time import perf_counter
 
 import numpy as np
 from numpy.typing import DTypeLike
 
 from p2sf.conventions import FloatOrArray, anywhere, centred_axis
-from p2sf.disc.domain import HALF
 from p2sf.disc.mask import CLEAR, PupilMask
 from p2sf.disc.mask_nodes import throughput
 from p2sf.disc.quadrature import SETTLED_TOLERANCE, cell_areas, disc_nodes, even_count, nodes_for
@@ -19,13 +17,11 @@ from p2sf.messages import Message
 from p2sf.parameters import LARGEST_SIDE, check_samples
 from p2sf.paraxial.seidel import Coefficients
 from p2sf.paraxial.wavefront import steepest_polar, steepest_slope, wavefront
-from p2sf.psf.fitted import MOST_FOR_PEAK, waves_reaching
 from p2sf.psf.peak import peak_of, top_in_window
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel_stack import SummedStack, as_fit, corner_reach, each_of, stack_of
 from p2sf.psf.seidel_sum import wave_number
-from p2sf.pupil.fit import FittedPencil
-from p2sf.pupil.plane_waves import Waves, counts_for, pupil_amplitude, window_reach_um
+from p2sf.pupil.plane_waves import window_reach_um
 from p2sf.raytrace.ray_field import AIRY_RADIUS
 from p2sf.threads import one_blas_thread
 
@@ -175,26 +171,15 @@ def _peaks(
     quality = quality if len(planes) <= MOST_SEARCHED else "preview"
     found = []
     for one, plane, total in zip(each_of(coefficients), planes, totals, strict=True):
-        reaching = partial(_waves_reaching, one, as_fit(one, mask))
-        waves = reaching(reach_um)
+        pupil = as_fit(one, mask)
+        waves = pupil.waves_reaching(reach_um)
         if waves is None:  # with so many, what the window shows
             peak = top_in_window(plane * total, pixel_um, abs(float(wave_number(one))))
         else:
-            peak = peak_of(plane * total, pixel_um, waves, reaching, quality)
+            peak = peak_of(plane * total, pixel_um, waves, pupil.waves_reaching, quality)
         found.append((peak.value, peak.x_um, peak.y_um, peak.other_peaks))
     table = np.reshape(found, (*shape, 4))
     return table[..., 0], table[..., 1:3], table[..., 3].astype(int)
-
-
-def _waves_reaching(c: Coefficients, fitted: FittedPencil, reach_um: float) -> Waves | None:
-    """Return `fitted.waves_reaching` of six coefficients, by W itself if there is no mask."""
-    counts = counts_for(fitted.steepness, reach_um)
-    if not fitted.mask.clear or prod(counts) > MOST_FOR_PEAK:
-        return waves_reaching(fitted, reach_um)
-    nodes, scale = disc_nodes(*counts), -float(wave_number(c))  # the conjugate, as a fit
-    amplitude = pupil_amplitude(nodes.weight, -wavefront(c, nodes.xi, nodes.eta))
-    blur = fitted.steepness.radial / fitted.steepness.spread
-    return Waves(amplitude, scale * nodes.xi, scale * nodes.eta, HALF, blur, reach_um)
 
 
 def energy_fraction(

@@ -170,6 +170,7 @@ def as_fit(coefficients: Coefficients, mask: PupilMask) -> FittedPencil:
         rays=2,
         mask=mask,
         wavelength_um=wavelength,
+        method="seidel",
     )
 
 

@@ -10,6 +10,7 @@ amplitude, since dS/L² is a solid angle. The sum has the weights of `huygens` a
 the shape of the waves alone; both take the radiometric ones (`RayPupil.areas`).
 """
 
+from dataclasses import replace
 from functools import lru_cache
 from math import hypot, inf, pi, prod
 
@@ -21,11 +22,10 @@ from p2sf.errors import P2SFError, SamplingError
 from p2sf.figures.compare import r_squared
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.psf.huygens import RayPupil, first_counts, ray_waves
 from p2sf.psf.prediction import CAUTION
 from p2sf.pupil.fit import level_rays, levels_for
-from p2sf.pupil.plane_waves import Counts, Waves
-from p2sf.pupil.smooth_pupil import all_reach, interpolated_waves
+from p2sf.pupil.rays import RayPupil
+from p2sf.pupil.smooth_pupil import all_reach
 from p2sf.raytrace.exit_sphere import exit_sphere
 from p2sf.raytrace.pencil import Rays, exit_radius, pencil
 from p2sf.raytrace.ray_field import AIRY_RADIUS, Steepness, steepness
@@ -42,7 +42,8 @@ MOST_NODES = 2**21  # of that comparison, beyond which it is not made: a second,
 
 def spherical_pupil(lens: Lens, source: Source, clip: bool = False) -> RayPupil:
     """Return the rays of a source as spherical waves; plane ones where the exit pupil is at infinity."""
-    return RayPupil(lens, source, clip, sphere=exit_sphere(lens, source), method="spherical")
+    sphere = exit_sphere(lens, source)
+    return RayPupil(lens, source, clip, sphere=sphere, method="spherical", interpolated=sphere is not None)
 
 
 @lru_cache(maxsize=64)
@@ -132,16 +133,17 @@ def plane_wave_error(lens: Lens, source: Source, clip: bool = False, half_um: fl
 def _compare_sums(lens: Lens, source: Source, clip: bool, half: float) -> float:
     """Return `plane_wave_error`, kept by the window that it is of, however that was asked for."""
     reach = hypot(half, half)
-    counts, axis = first_counts(lens, source, reach, clip, MOST_NODES), centred_axis(SAMPLES, 2 * half / SAMPLES)
+    plane = RayPupil(lens, source, clip, interpolated=True, most=MOST_NODES)
+    counts, axis = plane.counts(reach), centred_axis(SAMPLES, 2 * half / SAMPLES)
     sphere = exit_sphere(lens, source)  # behind the counts, which refuse a wide blur sooner
     if sphere is None:
         return 0.0
-    counts = max(counts, first_counts(lens, source, reach, clip, MOST_NODES, sphere), key=prod)
-    pupils = RayPupil(lens, source, clip), RayPupil(lens, source, clip, sphere=sphere)
-    plane, own = (_waves_of(pupil, counts, reach).plane.intensity(axis, axis, np.float32) for pupil in pupils)
+    pupils = plane, replace(plane, sphere=sphere)
+    counts = max(counts, pupils[1].counts(reach), key=prod)
+    flat, own = (pupil.sample(counts, reach).waves.plane.intensity(axis, axis, np.float32) for pupil in pupils)
     xi, eta, _ = level_rays(levels_for(lens)[0])
     rays = pencil(lens, source, xi, eta)
-    return 1 - r_squared(plane, own) + _wide_angle(rays, steepness(rays, xi, eta), sphere.distance * UM_PER_MM)
+    return 1 - r_squared(flat, own) + _wide_angle(rays, steepness(rays, xi, eta), sphere.distance * UM_PER_MM)
 
 
 def is_long_comparison(lens: Lens, source: Source, clip: bool = False, half_um: float = inf) -> bool:
@@ -150,7 +152,7 @@ def is_long_comparison(lens: Lens, source: Source, clip: bool = False, half_um: 
         return True
     half = min(half_um, half_window_um(lens, source))
     try:
-        return prod(first_counts(lens, source, hypot(half, half), clip, MOST_NODES)) > FEW_NODES
+        return prod(RayPupil(lens, source, clip, most=MOST_NODES).counts(hypot(half, half))) > FEW_NODES
     except P2SFError:  # then no comparison is made
         return False
 
@@ -174,8 +176,3 @@ def half_window_um(lens: Lens, source: Source) -> float:
     rays = pencil(lens, source, xi, eta)
     airy = AIRY_RADIUS / steepness(rays, xi, eta).spread
     return float(ROOM[0] * np.nanmax(np.hypot(rays.x_um, rays.y_um)) + ROOM[1] * airy)
-
-
-def _waves_of(pupil: RayPupil, counts: Counts, reach_um: float) -> Waves:
-    smooth = interpolated_waves(pupil.lens, pupil.source, counts, reach_um, pupil.sphere) if pupil.whole else None
-    return (smooth or ray_waves(pupil, counts, reach_um)).waves

@@ -5,33 +5,17 @@ by interpolation as many plane waves as blur and window require. Held-out rays o
 behind a mask, all rays are traced.
 """
 
-from dataclasses import replace
-from functools import partial
 from math import prod
-from time import perf_counter
 
-from p2sf.disc.quadrature import SETTLED_TOLERANCE
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.messages import Message
-from p2sf.psf.huygens import (
-    RayPupil,
-    Watch,
-    blur_um2,
-    first_counts,
-    one_pass,
-    sampling_of,
-    sum_rays,
-    waves_reaching,
-)
-from p2sf.psf.picture import psf_of_waves, resolved
-from p2sf.psf.prediction import EDGE_ERROR, TRACED_ERROR
+from p2sf.psf.picture import psf_of_pupil
 from p2sf.psf.result import Psf
 from p2sf.pupil.plane_waves import window_reach_um
-from p2sf.pupil.smooth_pupil import all_reach, interpolated_waves
+from p2sf.pupil.rays import MOST_INTERPOLATED, RayPupil
+from p2sf.pupil.watch import MOST_RAYS, Watch
 from p2sf.threads import one_blas_thread
 
-MOST_NODES = 2**23  # radii × directions / 2: some seconds of work
 EDGE_TOLERANCE = 3e-3  # relative L2 for a pupil bounded by rims or lost rays: R² to 1e-5
 
 
@@ -52,31 +36,20 @@ def traced_psf(
     Raises GeometryError if the chief ray does not reach the sensor, SamplingError for a window that needs too many
     rays.
     """
-    started, settled, watch = perf_counter(), quality == "settled", watch or Watch()
-    pupil, window = RayPupil(lens, source, clip), (pixels, pixel_um)
-    if clip or not all_reach(lens, source):
-        return _until_two_agree(pupil, window, settled, watch)
-    reach = window_reach_um(*window)
-    counts = first_counts(lens, source, reach, clip, MOST_NODES)
-    smooth = interpolated_waves(lens, source, counts, reach)
-    if smooth is None and settled and prod(counts) / 2 > watch.most:
-        return _until_two_agree(pupil, window, settled, watch)
-    rays = smooth or one_pass(pupil, window, watch)
-    light = partial(blur_um2, pupil) if resolved(rays.waves.spread, pixel_um) else None
-    reaching = partial(waves_reaching, pupil)
-    psf = psf_of_waves(rays.waves, window, source.wavelength_um, "traced", light, reaching, quality)
-    precision = "float64" if settled else "float32"
-    return replace(
-        psf.with_figures(predicted_error=TRACED_ERROR),
-        rays=rays.traced,
-        sampling=Message("{nodes}, {precision}", nodes=sampling_of(pupil, rays, None), precision=precision),
-        error=SETTLED_TOLERANCE if settled else None,
-        seconds=perf_counter() - started,
-    )
+    pupil, watch = traced_pupil(lens, source, clip), watch or Watch()
+    once = quality == "preview" or one_pass_suffices(pupil, window_reach_um(pixels, pixel_um), watch)
+    return psf_of_pupil(pupil, (pixels, pixel_um), quality, None if once else EDGE_TOLERANCE, watch)
 
 
-def _until_two_agree(pupil: RayPupil, window: tuple[int, float], settled: bool, watch: Watch) -> Psf:
-    """Return the PSF of rays that are added until two pictures agree, or, of a preview, of one pass."""
-    found = sum_rays(pupil, window, EDGE_TOLERANCE if settled else None, watch)
-    reached = 0.0 if found.error is None else found.error
-    return replace(found.with_figures(predicted_error=max(EDGE_ERROR, reached**2)), method="traced")
+def traced_pupil(lens: Lens, source: Source, clip: bool = False) -> RayPupil:
+    """Return the rays of a source, interpolated where they are smooth."""
+    return RayPupil(lens, source, clip, method="traced", interpolated=True, most=MOST_INTERPOLATED)
+
+
+def one_pass_suffices(pupil: RayPupil, reach_um: float, watch: Watch) -> bool:
+    """Return whether one sum of rays is exact enough and costs no more than is allowed."""
+    if pupil.edges:
+        return False
+    if watch.most >= MOST_RAYS:  # more are refused
+        return True
+    return prod(pupil.counts(reach_um)) // 2 <= watch.most or pupil.smooth(reach_um)

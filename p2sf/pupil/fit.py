@@ -5,8 +5,10 @@ it needs no edge and no Jacobian, the rays stay at fixed pupil points, and a fit
 least-squares inverse. Rays that fill the real stop have varying weights, which are fitted by a polynomial too.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from math import prod
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -14,14 +16,17 @@ import numpy as np
 from p2sf.conventions import write_protect
 from p2sf.disc.basis import Gradient, PupilBasis, PupilValues, at_nodes
 from p2sf.disc.disc_function import Counts, DiscFunction
-from p2sf.disc.domain import HALF, HELD_OUT, WHOLE, PupilDomain
+from p2sf.disc.domain import HALF, HELD_OUT, WHOLE, ClearNodes, PupilDomain
 from p2sf.disc.mask import CLEAR, PupilMask
 from p2sf.disc.mask_nodes import mask_nodes
-from p2sf.errors import GeometryError
+from p2sf.errors import GeometryError, SamplingError
 from p2sf.lens.lens import Aim, Lens
 from p2sf.lens.source import Source
 from p2sf.paraxial.pupils import Stop
+from p2sf.pupil.plane_waves import Waves, counts_for, pupil_amplitude
+from p2sf.pupil.pupil import Pupil, PupilWaves
 from p2sf.pupil.seen_mask import mask_seen, with_slopes
+from p2sf.pupil.watch import Watch
 from p2sf.raytrace.pencil import Rays, reaching
 from p2sf.raytrace.ray_field import Steepness, map_slopes, steepness, with_map
 
@@ -34,6 +39,10 @@ CENTRE_POWER, RIM_POWER = -0.75, -0.5
 SLOPE_WEIGHT = 0.1  # relative to the phase: of 1/40, 1/20, 1/10 and 1/5 the best for the worst misaligned lenses
 RayTerms: TypeAlias = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 """Coefficients of phase, fx, fy and amplitude in the terms of a level, each (…, terms)."""
+NodesOf: TypeAlias = Callable[[Counts], ClearNodes]
+MOST_NODES = 2**24  # radii × directions: some seconds of work
+PREVIEW = 0.9  # of the settled counts: 1 − R² against the settled sum is below 1e-5
+BLUR_NODES = 16, 40  # carry the weight and the area of a fit, which are smooth
 
 
 @dataclass(frozen=True)
@@ -130,14 +139,15 @@ def levels_for(lens: Lens) -> tuple[Level, ...]:
 
 
 @dataclass(frozen=True, eq=False)
-class FittedPencil:
+class FittedPencil(Pupil):
     """Phase in waves, fx and fy in cycles per µm and `Rays.amplitude` over the pupil: the channels of ``function``.
 
     ``residual_waves`` is the RMS error of the phase where the rays land, ``map_residual`` that of (fx, fy) in cycles
     per µm, ``amplitude_residual`` that of the amplitude over its mean; ``rays`` counts all that were traced;
     ``blur_um2`` is ∫|field|²dx at unit unaberrated peak of the clear disc, NaN where its map folds. The amplitude, 1
     where the paraxial pupil is filled, excludes the ``mask``, which is given in the pupil coordinates of the source and
-    whose phase scales with ``wavelength_um``.
+    whose phase scales with ``wavelength_um``. ``nodes_of``: the nodes of (radial, angular) counts where rims end the
+    pupil, which no polynomial knows.
     """
 
     level: Level
@@ -150,11 +160,23 @@ class FittedPencil:
     amplitude_residual: float = 0.0
     mask: PupilMask = CLEAR
     wavelength_um: float = np.nan
+    nodes_of: NodesOf | None = None
+    method: str = "fitted"
 
     @property
     def numbers(self) -> int:
         """Return the number of coefficients of this pencil."""
         return self.level.numbers
+
+    @property
+    def edges(self) -> bool:
+        """Return whether rims end it."""
+        return self.nodes_of is not None
+
+    @property
+    def resolved(self) -> bool:
+        """Return that one sum suffices: its steepness is known, and where it ends."""
+        return True
 
     @property
     def error_waves(self) -> float:
@@ -168,6 +190,50 @@ class FittedPencil:
     def jacobian(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
         """Return ∂(fx, fy)/∂(ξ, η) at pupil points, (points,), (cycles/µm)²."""
         return area_of(self.function.channels(MAP).slopes_at(xi, eta))
+
+    def nodes(self, counts: Counts) -> ClearNodes:
+        """Return nodes over the open part, about as dense as ``counts`` are over the disc."""
+        if self.nodes_of:
+            return self.nodes_of(counts)
+        return self.level.basis.domain.over(mask_nodes(self.mask, *counts))
+
+    def counts(self, reach_um: float, quality: str = "settled") -> Counts:
+        """Return the node counts that resolve it up to a distance from the chief ray; SamplingError for too many."""
+        counts = counts_for(self.steepness, reach_um, 1.0 if quality == "settled" else PREVIEW)
+        if prod(counts) > MOST_NODES:
+            raise SamplingError(
+                "this blur over a window {width:.3g} µm wide needs {radii} × {directions} pupil samples; bring the "
+                "sensor nearer to the image, stop down, or show a smaller window",
+                width=reach_um * np.sqrt(2),
+                radii=counts[0],
+                directions=counts[1],
+            )
+        return counts
+
+    def sample(self, counts: Counts, reach_um: float = np.inf, watch: Watch | None = None) -> PupilWaves:
+        """Return the plane waves of these nodes, with amplitudes of unit sum."""
+        nodes, whole = self.nodes(counts), self.mask.clear and not self.nodes_of
+        phase, fx, fy, amplitude = self.function.on(counts) if whole else self.function.at(nodes.xi, nodes.eta)
+        if self.mask.phased:
+            phase = phase + nodes.path_um / self.wavelength_um
+        weight = nodes.weight * nodes.amplitude * amplitude
+        weight /= weight.sum()
+        blur = self.steepness.radial / self.steepness.spread
+        fx, fy = fx.copy(), fy.copy()  # so that the array of all channels needs no memory during the sum
+        waves = Waves(pupil_amplitude(weight, phase), fx, fy, nodes.domain, blur, reach_um)
+        return PupilWaves(waves, counts, self.rays)
+
+    def light_um2(self) -> float | None:
+        """Return ∫|field|²dx in µm² at unit unaberrated peak of its own pupil, by Parseval; None where it folds."""
+        if not self.nodes_of and self.mask.clear and np.isfinite(self.blur_um2):  # not known of a fit looked up
+            return self.blur_um2
+        nodes = self.nodes(BLUR_NODES)
+        area = self.jacobian(nodes.xi, nodes.eta)
+        if not area.min() * area.max() > 0:
+            return None
+        field = nodes.amplitude * self.function.at(nodes.xi, nodes.eta)[-1]
+        field = field / ((nodes.weight * field).sum() / nodes.weight.sum())
+        return float(nodes.weight @ (field * field / np.abs(area)) / (np.pi * nodes.share))
 
 
 def area_of(slopes: Gradient) -> np.ndarray:
@@ -386,7 +452,8 @@ def fit_rays(rays: Rays, level: Level, traced: int, steep: Steepness | None = No
     map_of = map_slopes(xi[own], eta[own], by_xi, by_eta)
     steep = with_map(steep or steepness(rays, xi, eta), map_of, rays.x_um[own], rays.y_um[own])
     left, of_map, of_light = map(float, residuals(rays, level, found))
-    return FittedPencil(level, level.function(*found), left, steep, blur, traced, of_map, of_light)
+    made = level, level.function(*found), left, steep, blur, traced, of_map, of_light
+    return FittedPencil(*made, wavelength_um=float(rays.wavelength_um.item()))
 
 
 def _residual(error: np.ndarray, weight: np.ndarray, unknowns: float) -> np.ndarray:

@@ -4,7 +4,6 @@ A coarse pencil gives the steepness of the phase and shows whether all rays arri
 phase, direction and light at any nodes are interpolated from it; held-out rays on the rim give the accuracy.
 """
 
-from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -15,6 +14,7 @@ from p2sf.disc.quadrature import disc_axes, disc_nodes
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.pupil.plane_waves import Counts, Waves, pupil_amplitude
+from p2sf.pupil.pupil import PupilWaves
 from p2sf.pupil.seen_mask import mask_seen
 from p2sf.pupil.spherical_waves import waves_from
 from p2sf.raytrace.exit_sphere import ExitSphere
@@ -27,16 +27,6 @@ COARSE = PROBE, (20, 64)  # radii and directions of the pencils used for interpo
 # of 1/2π of it.
 CLOSE = 2e-4
 ODD = False, True, False, False, False  # in ξ, by symmetry: phase, fx, fy, amplitude and distance
-
-
-@dataclass(frozen=True)
-class RayWaves:
-    """Plane waves of exact rays, their node counts, and the numbers of rays lost and traced."""
-
-    waves: Waves
-    counts: Counts
-    lost: int
-    traced: int
 
 
 @lru_cache(maxsize=4)
@@ -99,13 +89,13 @@ def _inside_and_rim(
 
 def interpolated_waves(
     lens: Lens, source: Source, counts: Counts, reach_um: float, sphere: ExitSphere | None = None
-) -> RayWaves | None:
+) -> PupilWaves | None:
     """Return the waves of nodes over the whole pupil, interpolated from a coarse pencil of exact rays.
 
     They are plane, or spherical from a ``sphere``. None behind a mask, if rays are lost, and if no such pencil is
     accurate enough.
     """
-    found = _smooth(lens, source, reach_um, sphere)
+    found = smooth_rays(lens, source, reach_um, sphere)
     if found is None:
         return None
     phase, fx, fy, field, *length = found.on(counts)
@@ -114,10 +104,10 @@ def interpolated_waves(
     fx, fy = fx.copy(), fy.copy()  # so that phase and field, in the same array, need no memory during the sum
     rays = coarse_pencil(lens, source, found.counts)
     waves = Waves(amplitude, fx, fy, nodes.domain, _farthest_um(rays), reach_um)
-    return RayWaves(waves_from(waves, sphere, *length), counts, 0, rays.phase.size)
+    return PupilWaves(waves_from(waves, sphere, *length), counts, rays.phase.size)
 
 
-def _smooth(lens: Lens, source: Source, reach_um: float, sphere: ExitSphere | None = None) -> DiscFunction | None:
+def smooth_rays(lens: Lens, source: Source, reach_um: float, sphere: ExitSphere | None = None) -> DiscFunction | None:
     """Return phase, fx, fy and amplitude through the first sufficient pencil; None where none is.
 
     Seen from a ``sphere`` these are of the rays that it has, with their distances behind.

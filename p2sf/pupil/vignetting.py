@@ -1,22 +1,15 @@
 """What is open of the pupil of a source through a lens, and nodes over it, without a jagged edge (handbook 4.6)."""
 
-from collections.abc import Callable
 from functools import lru_cache
 
-import numpy as np
-
 from p2sf.disc.domain import ClearNodes
-from p2sf.disc.mask_nodes import mask_nodes
 from p2sf.disc.open_part import OpenPart
 from p2sf.disc.quadrature import disc_nodes
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.pupil.clear_curves import clear_curve, hole_curves, holes_of
-from p2sf.pupil.fit import FittedPencil
 from p2sf.pupil.seen_mask import mask_seen
-
-BLUR_NODES = 16, 40  # carry the weight and the area of a fit, which are smooth
 
 
 def whole_nodes(counts: tuple[int, int]) -> ClearNodes:
@@ -69,19 +62,3 @@ def check_without_holes(lens: Lens, clip: bool) -> None:
             parameter="clip",
             surface=holes_of(lens)[0],
         )
-
-
-def masked_blur(found: FittedPencil, nodes_of: Callable[[tuple[int, int]], ClearNodes] | None = None) -> float | None:
-    """Return ∫|field|²dx of a fit in µm² at unit unaberrated peak of its own pupil, by Parseval; None where it folds.
-
-    ``nodes_of``: the nodes of (radial, angular) counts over that pupil where rims end it.
-    """
-    if nodes_of is None and found.mask.clear and np.isfinite(found.blur_um2):  # not known of a fit that was looked up
-        return found.blur_um2
-    nodes = nodes_of(BLUR_NODES) if nodes_of else found.level.basis.domain.over(mask_nodes(found.mask, *BLUR_NODES))
-    area = found.jacobian(nodes.xi, nodes.eta)
-    if not area.min() * area.max() > 0:
-        return None
-    field = nodes.amplitude * found.function.at(nodes.xi, nodes.eta)[-1]
-    field = field / ((nodes.weight * field).sum() / nodes.weight.sum())
-    return float(nodes.weight @ (field * field / np.abs(area)) / (np.pi * nodes.share))

@@ -22,11 +22,11 @@ from p2sf.figures.compare import r_squared
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Message
-from p2sf.psf.huygens import RayPupil, first_counts
 from p2sf.psf.prediction import CAUTION
 from p2sf.psf.result import Psf
 from p2sf.pupil.fit import fit
 from p2sf.pupil.plane_waves import disc_words, pupil_amplitude, window_reach_um
+from p2sf.pupil.rays import RayPupil
 from p2sf.raytrace.pencil import rays_through
 from p2sf.threads import one_blas_thread
 
@@ -43,7 +43,7 @@ def vector_psf(lens: Lens, source: Source, pixels: int, pixel_um: float, clip: b
     too many are needed.
     """
     started, pupil = perf_counter(), RayPupil(lens, source, clip, areas=fit(lens, source))
-    counts = first_counts(lens, source, window_reach_um(pixels, pixel_um), clip)
+    counts = pupil.counts(window_reach_um(pixels, pixel_um))
     rays = rays_through(lens, source, pupil.nodes(counts).unfolded()).arrived
     chief = np.array([float(np.ravel(k)[0]) for k in (rays.chief_kx, rays.chief_ky, rays.chief_kz)])
     cosines = np.stack([rays.kx, rays.ky, rays.kz])

@@ -25,10 +25,11 @@ from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.first_order import basis_rays
 from p2sf.paraxial.pupils import paraxial_rays
 from p2sf.paraxial.seidel import coefficients
-from p2sf.psf.huygens import first_counts, huygens_psf
+from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.seidel import seidel_psf
 from p2sf.psf.seidel_sum import kernels_for, shape_terms
 from p2sf.pupil.plane_waves import window_reach_um
+from p2sf.pupil.rays import RayPupil
 from p2sf.raytrace.aiming import PupilRays, pupil_rays
 from p2sf.threads import using_threads
 
@@ -123,7 +124,7 @@ def huygens_picture(apart: float = 0.0) -> tuple[Work, Work]:
     """
     steps_aside = count()
     wave = SOURCE.wavelength_um
-    nodes = disc_nodes(*first_counts(LENS, SOURCE, window_reach_um(PIXELS, PIXEL_UM), False))
+    nodes = disc_nodes(*RayPupil(LENS, SOURCE).counts(window_reach_um(PIXELS, PIXEL_UM)))
     rays = pupil_rays(LENS, SOURCE, np.append(nodes.xi, 0.0), np.append(nodes.eta, 0.0))
     weight, index = nodes.weight * np.asarray(rays.launch)[:-1], indices(LENS, wave).tolist()
     weight = (weight / weight.sum()).astype(np.float32)

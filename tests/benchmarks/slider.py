@@ -61,7 +61,7 @@ PARTS = {  # what is timed by ``--split``: the name that calls it, and what it i
     "p2sf_explorer.compute.preview:pencil": "compute: aiming and tracing",
     "p2sf_explorer.compute.preview:best_fit": "compute: fit",
     "p2sf_explorer.compute.method:best_fit": "compute: fit",
-    "p2sf_explorer.compute.preview:psf_of_fit": "compute: sum of waves",
+    "p2sf_explorer.compute.preview:psf_of_pupil": "compute: sum of waves",
     "p2sf_explorer.compute.preview:seidel_psf": "compute: sum of waves",
     "p2sf_explorer.compute.method:preview_pupil": "compute: pupil",
     "p2sf_explorer.compute.live:pupil_of": "compute: pupil",

@@ -18,9 +18,9 @@ from p2sf.errors import P2SFError, SamplingError
 from p2sf.lens.lens import with_aim
 from p2sf.lens.source import Source
 from p2sf.paraxial.first_order import cardinal_points
-from p2sf.psf.huygens import first_counts
 from p2sf.psf.methods import PsfOptions, render, whole_pixel_um
 from p2sf.pupil.plane_waves import window_reach_um
+from p2sf.pupil.rays import RayPupil
 from tests.extremes.regimes import Case, curved_sensor_cases
 from tests.extremes.test_measures_extremes import AIMS, NAMED, SWEPT, outcome_of
 
@@ -37,7 +37,7 @@ def picture(case: Case, aim: str, method: str) -> str:
         pixel_um = whole_pixel_um(lens, source, PIXELS)
         if method == "spherical":
             try:
-                first_counts(lens, source, window_reach_um(PIXELS, pixel_um), False, MOST_RAYS)
+                RayPupil(lens, source, most=MOST_RAYS).counts(window_reach_um(PIXELS, pixel_um))
             except SamplingError:
                 return LONG
         psf = render(lens, source, method, PIXELS, pixel_um, PsfOptions("preview"))

@@ -27,6 +27,7 @@ import numpy as np
 
 from p2sf.conventions import centred_axis
 from p2sf.disc.mask import PupilMask
+from p2sf.disc.quadrature import SETTLED_TOLERANCE
 from p2sf.errors import Cancelled, P2SFError
 from p2sf.figures.compare import r_squared, relative_l2
 from p2sf.lens.lens import Lens, lens_range_um, with_f_number, with_mask, with_sensor
@@ -36,12 +37,14 @@ from p2sf.lensfile.library import find_lens, shipped_lenses
 from p2sf.paraxial.first_order import cardinal_points, image_distance
 from p2sf.paraxial.positions import lens_at
 from p2sf.paraxial.seidel import coefficients
-from p2sf.psf.huygens import RayPupil, Watch, first_counts, sum_rays
 from p2sf.psf.methods import PsfOptions, whole_pixel_um
+from p2sf.psf.picture import psf_of_pupil
 from p2sf.psf.pixel_integrals import render_integrated
 from p2sf.psf.spherical import fresnel_number, spherical_pupil
 from p2sf.pupil.plane_waves import window_reach_um
+from p2sf.pupil.rays import RayPupil
 from p2sf.pupil.smooth_pupil import all_reach
+from p2sf.pupil.watch import Watch
 from p2sf.raytrace.exit_sphere import exit_sphere
 from tests.support.double_sum import double_sum
 
@@ -191,7 +194,9 @@ def _reference(
 
 def _within(seconds: float, pupil: RayPupil, window: tuple[int, float]) -> np.ndarray:
     end = process_time() + seconds
-    return sum_rays(pupil, window, watch=Watch(cancelled=lambda: process_time() > end)).values
+    return psf_of_pupil(
+        pupil, window, rtol=SETTLED_TOLERANCE, watch=Watch(cancelled=lambda: process_time() > end)
+    ).values
 
 
 def _own_sum(lens: Lens, source: Source, window: tuple[int, float], most_seconds: float) -> np.ndarray | None:
@@ -203,7 +208,7 @@ def _own_sum(lens: Lens, source: Source, window: tuple[int, float], most_seconds
         sphere = exit_sphere(lens, source)
         if sphere is None or not all_reach(lens, source) or not lens.mask.clear:
             return None
-        counts = first_counts(lens, source, window_reach_um(*window), False, 2**24, sphere)
+        counts = RayPupil(lens, source, sphere=sphere, most=2**24).counts(window_reach_um(*window))
     except P2SFError:
         return None
     radii, angles = (round(4 / 3 * count) for count in counts)

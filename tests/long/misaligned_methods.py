@@ -16,6 +16,7 @@ from math import prod
 
 import numpy as np
 
+from p2sf.disc.quadrature import SETTLED_TOLERANCE
 from p2sf.errors import P2SFError
 from p2sf.figures.compare import r_squared
 from p2sf.lens.lens import Lens
@@ -25,13 +26,15 @@ from p2sf.lens.source import Source
 from p2sf.paraxial.seidel import coefficients
 from p2sf.psf.choosing import choose
 from p2sf.psf.fitted import fitted_psf
-from p2sf.psf.huygens import first_counts, huygens_psf, sum_rays
+from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import PsfOptions, render
+from p2sf.psf.picture import psf_of_pupil
 from p2sf.psf.seidel import suitable_pixel_um
 from p2sf.psf.spherical import spherical_pupil
 from p2sf.psf.traced import traced_psf
 from p2sf.pupil.fit import NOT_SYMMETRIC
 from p2sf.pupil.plane_waves import window_reach_um
+from p2sf.pupil.rays import RayPupil
 from tests.long.method_choice import TOLERANCES, random_point
 
 DECENTRE_MM, TILT_DEG = 0.2, 0.5
@@ -86,7 +89,7 @@ def outcome(number: int, seed: int) -> Outcome:
             c = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
             pixel = float(suitable_pixel_um(c, PIXELS))
             steep = pixel * PIXELS * float(c.na) / source.wavelength_um / 2 > STEEPEST / 2
-            if not steep and prod(first_counts(bad, source, window_reach_um(PIXELS, pixel), False)) <= MOST_NODES:
+            if not steep and prod(RayPupil(bad, source).counts(window_reach_um(PIXELS, pixel))) <= MOST_NODES:
                 reference = huygens_psf(bad, source, PIXELS, pixel)
                 choice = choose(bad, source, tolerance)
                 break
@@ -98,7 +101,9 @@ def outcome(number: int, seed: int) -> Outcome:
         fitted, predicted = r_squared(fit.values, reference.values), float(fit.predicted_error)
     except P2SFError:  # rays are lost
         fitted, predicted = np.nan, np.inf
-    exact = sum_rays(spherical_pupil(bad, source), (PIXELS, pixel)) if choice.method == "spherical" else reference
+    exact = reference
+    if choice.method == "spherical":
+        exact = psf_of_pupil(spherical_pupil(bad, source), (PIXELS, pixel), rtol=SETTLED_TOLERANCE)
     r2 = [r_squared(chosen.values, exact.values), r_squared(traced.values, reference.values)]
     return Outcome(number, lens.name, choice.method, tolerance, r2[0], fitted, predicted, r2[1])
 

@@ -20,9 +20,10 @@ from p2sf.errors import P2SFError
 from p2sf.figures.compare import r_squared
 from p2sf.lensfile.library import shipped_lenses
 from p2sf.psf import huygens
-from p2sf.psf.huygens import first_counts, sum_rays
 from p2sf.psf.methods import reference_pupil
+from p2sf.psf.picture import psf_of_pupil
 from p2sf.pupil.plane_waves import window_reach_um
+from p2sf.pupil.rays import RayPupil
 from p2sf_explorer.compute.deferred_sums import SumCache, answer_to
 from p2sf_explorer.compute.live import Live, live
 from p2sf_explorer.compute.setup import ParaxialSetup, default_state, prescription, ranges
@@ -142,13 +143,13 @@ def on_samples(answer: Live, samples: int) -> float:
         else:
             step //= 2
     some = slice((count - samples * step) // 2, (count + samples * step) // 2, step)
-    reference = sum_rays(reference_pupil(setup.lens, setup.source, clip), (samples, psf.pixel_um * step), None)
+    reference = psf_of_pupil(reference_pupil(setup.lens, setup.source, clip), (samples, psf.pixel_um * step))
     return r_squared(psf.values[some, some], reference.values)
 
 
 def too_many(setup: ParaxialSetup, window: tuple[int, float], clip: bool) -> bool:
     """Return whether the reference would take minutes for a window."""
-    radii, directions = first_counts(setup.lens, setup.source, window_reach_um(*window), clip)
+    radii, directions = RayPupil(setup.lens, setup.source, clip).counts(window_reach_um(*window))
     return radii * directions * window[0] ** 2 > MOST_PRODUCTS
 
 

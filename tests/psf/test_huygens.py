@@ -12,10 +12,12 @@ from p2sf.errors import Cancelled, GeometryError
 from p2sf.glass.media import ConstantIndex
 from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.lens.source import Source
-from p2sf.psf.huygens import RayPupil, Watch, first_counts, huygens_psf, ray_waves
+from p2sf.psf.huygens import huygens_psf
 from p2sf.pupil.clear_curves import clear_curve
 from p2sf.pupil.plane_waves import window_reach_um
+from p2sf.pupil.rays import RayPupil
 from p2sf.pupil.vignetting import clear_nodes
+from p2sf.pupil.watch import Watch
 from p2sf.raytrace.pencil import pencil
 from tests.support.rays.pencils import double_gauss
 from tests.support.reference import LENSES, case, huygens_rows, prescription_lens
@@ -53,7 +55,7 @@ def test_the_matrix_products_equal_the_double_loop():
     data = pencil(lens, source, nodes.xi, nodes.eta)
     axis = centred_axis(16, pixel)
 
-    field = ray_waves(RayPupil(lens, source), (20, 40), 16 * pixel).waves.field(axis, axis)
+    field = RayPupil(lens, source).sample((20, 40), 16 * pixel).waves.field(axis, axis)
     assert np.max(np.abs(field - plain_sum(data, nodes.weight, axis, axis))) < 1e-12  # waves of 1e3 in float64
 
 
@@ -67,8 +69,8 @@ def test_a_live_picture_promises_nothing_and_takes_more_rays_where_it_needs_them
 
 def test_a_sum_that_has_not_converged_says_so(monkeypatch):
     lens, source, pixel, _ = off_axis()
-    monkeypatch.setattr("p2sf.psf.huygens.first_counts", lambda *a: (8, 16))
-    monkeypatch.setattr("p2sf.psf.huygens.MOST_NODES", 200)
+    monkeypatch.setattr(RayPupil, "counts", lambda *a: (8, 16))
+    monkeypatch.setattr("p2sf.pupil.watch.MOST_RAYS", 200)
     psf = huygens_psf(lens, source, 32, pixel)
     assert psf.error > 1e-2
     assert "not converged" in str(psf.sampling)
@@ -78,7 +80,7 @@ def test_a_sum_that_has_not_converged_says_so(monkeypatch):
 def test_the_stated_tolerance_is_the_one_that_ends_the_sum(monkeypatch, tolerance):
     """From few rays the agreement passes through every decade, so that a laxer end would show."""
     lens, source, pixel, _ = off_axis()
-    monkeypatch.setattr("p2sf.psf.huygens.first_counts", lambda *a: (16, 32))
+    monkeypatch.setattr(RayPupil, "counts", lambda *a: (16, 32))
     psf = huygens_psf(lens, source, 16, pixel, rtol=tolerance)
     assert psf.error <= tolerance and "not converged" not in str(psf.sampling)
 
@@ -140,10 +142,10 @@ def test_rays_that_rims_stop_ask_for_no_nodes():
     """A rim that leaves a small circle asks for as many nodes as a stop of that size, which passes all its rays."""
     cut, small = overfilled()
     reach = window_reach_um(32, 10.0)
-    clipped, stopped = first_counts(cut, AXIAL, reach, True), first_counts(small, AXIAL, reach, False)
+    clipped, stopped = RayPupil(cut, AXIAL, clip=True).counts(reach), RayPupil(small, AXIAL).counts(reach)
     # The outermost node is not on the rim; counts come in steps of 4 and 16.
     assert np.array(clipped) == pytest.approx(np.array(stopped), rel=0.1, abs=16)
-    assert np.prod(first_counts(cut, AXIAL, reach, False)) > 5 * np.prod(clipped)
+    assert np.prod(RayPupil(cut, AXIAL).counts(reach)) > 5 * np.prod(clipped)
 
 
 def test_the_light_within_a_clipped_window_takes_no_table_of_all_nodes(monkeypatch):
@@ -155,7 +157,7 @@ def test_the_light_within_a_clipped_window_takes_no_table_of_all_nodes(monkeypat
         sizes.append(np.size(xi))
         return pencil(lens, source, xi, eta)
 
-    monkeypatch.setattr("p2sf.psf.huygens.pencil", recorded)
+    monkeypatch.setattr("p2sf.pupil.rays.pencil", recorded)
     clipped, stopped = (huygens_psf(one, AXIAL, 256, 1.0, clip=one is cut) for one in (cut, small))
     assert clipped.energy == pytest.approx(stopped.energy, rel=1e-4) and 0.1 < clipped.energy < 0.999
     assert max(sizes) < clipped.rays  # some hundred nodes with four rays beside each, however many are summed
@@ -165,8 +167,8 @@ def test_the_first_counts_carry_the_phase_up_to_the_corners_of_the_window():
     """Coma, whose rays land on one side of the window: the first pass is as good as nine times as many rays."""
     lens, source, pixel, _ = off_axis()
     reach, axis = window_reach_um(32, pixel), centred_axis(32, pixel)
-    counts = first_counts(lens, source, reach, False)
-    first, finer = (ray_waves(RayPupil(lens, source), (k * counts[0], k * counts[1]), reach).waves for k in (1, 3))
+    counts = RayPupil(lens, source).counts(reach)
+    first, finer = (RayPupil(lens, source).sample((k * counts[0], k * counts[1]), reach).waves for k in (1, 3))
     assert relative_l2(first.intensity(axis, axis), finer.intensity(axis, axis)) < 1e-6
 
 
@@ -192,8 +194,8 @@ def test_a_pupil_that_is_clipped_altogether_is_refused():
 
 def test_more_nodes_are_asked_for_a_wider_window_and_a_stronger_blur():
     lens, source, pixel, _ = off_axis()
-    near = first_counts(lens, source, window_reach_um(32, pixel), False)
-    wide = first_counts(lens, source, window_reach_um(256, pixel), False)
+    near = RayPupil(lens, source).counts(window_reach_um(32, pixel))
+    wide = RayPupil(lens, source).counts(window_reach_um(256, pixel))
     assert wide[0] > near[0] and wide[1] > near[1]
 
 

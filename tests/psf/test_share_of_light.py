@@ -11,7 +11,7 @@ from scipy.special import j0
 import p2sf
 from p2sf import Aperture, GeometryError, Lens, Source, Surface
 from p2sf.lens.transmission import Transmission
-from p2sf.psf.huygens import sum_rays
+from p2sf.psf.picture import psf_of_pupil
 from p2sf.psf.pixel_integrals import light_of_rays
 from p2sf.psf.spherical import spherical_pupil
 
@@ -138,7 +138,7 @@ def test_one_pass_of_spherical_waves_states_its_light():
     """By exact rays: of a blur a hundred Airy radii wide, in half of its window, diffraction moves little."""
     lens = p2sf.load_lens("double_gauss_28")
     source = Source(field_deg=19.9)
-    once = sum_rays(spherical_pupil(lens, source), (256, 0.9765625), None)
+    once = psf_of_pupil(spherical_pupil(lens, source), (256, 0.9765625))
     assert once.energy == pytest.approx(light_of_rays(lens, source, once, False), abs=0.01)
     assert 0.5 < once.energy < 0.99
 

@@ -18,7 +18,6 @@ from p2sf.lens.lens import Aperture, Lens, Surface
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.psf.choosing import choose
-from p2sf.psf.huygens import ray_waves
 from p2sf.psf.measures import energy_in, mtf_of, parts_of
 from p2sf.psf.methods import PsfOptions, PsfRequest, psf_of, render
 from p2sf.psf.peak import climb
@@ -105,7 +104,7 @@ def test_beside_the_axis_the_sum_and_its_peak_are_those_of_every_wavelet():
     lens, source = with_fresnel_number(find_lens("cooke_triplet"), Source(field_deg=10), 30)
     lens = defocused(lens, source, 30, -3.0)
     pupil = spherical_pupil(lens, source)
-    waves = ray_waves(pupil, (24, 80), 400.0).waves
+    waves = replace(pupil, interpolated=False).sample((24, 80), 400.0).waves
     axis = centred_axis(9, 20.0)
 
     def one_by_one(x, y):

@@ -10,9 +10,11 @@ from p2sf.figures.compare import r_squared
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.psf.fitted import fitted_psf
-from p2sf.psf.huygens import RayPupil, Watch, first_counts, huygens_psf, ray_waves
+from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.traced import traced_psf
+from p2sf.pupil.rays import RayPupil
 from p2sf.pupil.smooth_pupil import interpolated_waves
+from p2sf.pupil.watch import Watch
 from p2sf.raytrace.pencil import pencil
 from tests.support.reference import LENSES, cases
 
@@ -49,11 +51,11 @@ def test_a_few_rays_tell_what_all_would(name):
     """Phase, direction and light at every node, interpolated and traced: within the bound seen on the rim."""
     for lens, source, pixel, _ in cases(name):
         reach = 23 * pixel
-        counts = first_counts(lens, source, reach, False)
+        counts = RayPupil(lens, source).counts(reach)
         few = interpolated_waves(lens, source, counts, reach)
         if few is None:
             continue
-        every = ray_waves(RayPupil(lens, source), counts, reach).waves
+        every = RayPupil(lens, source).sample(counts, reach).waves
         spread = np.abs(every.amplitude).max()
         assert np.abs(few.waves.amplitude - every.amplitude).max() < 2 * np.pi * 2e-4 * spread
         assert np.abs(few.waves.fx - every.fx).max() * reach < 2e-4

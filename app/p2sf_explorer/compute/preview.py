@@ -7,17 +7,16 @@ from time import perf_counter
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM
-from p2sf.disc.mask_nodes import mask_nodes
+from p2sf.disc.domain import ClearNodes
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.messages import Message
-from p2sf.psf.fitted import counts_of, fitted_waves, psf_of_fit
-from p2sf.psf.picture import psf_of_waves
+from p2sf.psf.picture import psf_of_pupil
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel import seidel_psf
 from p2sf.pupil.clear_curves import CLIPPED
 from p2sf.pupil.fit import FittedPencil, Level, fit, fit_rays, level_rays, levels, levels_for
-from p2sf.pupil.plane_waves import disc_words, window_reach_um
+from p2sf.pupil.plane_waves import Counts, disc_words, window_reach_um
 from p2sf.pupil.seen_mask import mask_seen, with_slopes
 from p2sf.pupil.wavefront_map import MapTerms, WavefrontMap, map_of_terms
 from p2sf.raytrace.pencil import Rays, exit_radius, opd_on_sphere, pencil
@@ -78,7 +77,8 @@ def preview_psf(traced: Preview, pixels: int, pixel_um: float, fitted: FittedPen
         from p2sf.psf.methods import PsfOptions, render
 
         return render(setup.lens, setup.source, "traced", pixels, pixel_um, PsfOptions("preview"))
-    return psf_of_fit(fitted, setup.source.wavelength_um, (pixels, pixel_um), "preview", traced.begun)
+    psf = psf_of_pupil(fitted, (pixels, pixel_um), "preview")
+    return replace(psf, seconds=perf_counter() - traced.begun)
 
 
 def preview_of_coefficients(setup: ParaxialSetup, window: tuple[int, float], quality: str = "preview") -> Psf:
@@ -119,18 +119,20 @@ def clipped_psf(traced: Preview, pixels: int, pixel_um: float) -> Psf:
 
     A yes or no at each node makes a ragged edge, good enough while it moves. Raises GeometryError where none passes.
     """
-    fitted, setup, reach = best_fit(traced), traced.setup, window_reach_um(pixels, pixel_um)
-    counts = counts_of(fitted, reach, "preview")
-    nodes = fitted.level.basis.domain.over(mask_nodes(fitted.mask, *counts))
-    passed = pencil(setup.lens, setup.source, nodes.xi, nodes.eta, clip=True).passed
-    if not passed.any():
-        raise GeometryError(CLIPPED)
-    waves, window = fitted_waves(fitted, counts, reach, passed), (pixels, pixel_um)
-    psf = psf_of_waves(waves, window, setup.source.wavelength_um, "fitted", None, lambda reach: None, "preview")
+    fitted, setup = best_fit(traced), traced.setup
+
+    def passing(counts: Counts) -> ClearNodes:
+        nodes = fitted.nodes(counts)
+        passed = pencil(setup.lens, setup.source, nodes.xi, nodes.eta, clip=True).passed
+        if not passed.any():
+            raise GeometryError(CLIPPED)
+        return replace(nodes, weight=np.where(passed, nodes.weight, 0.0))
+
+    psf = psf_of_pupil(replace(fitted, nodes_of=passing), (pixels, pixel_um), "preview")
+    counts = fitted.counts(window_reach_um(pixels, pixel_um), "preview")
     return replace(
-        psf,
-        numbers=fitted.numbers,
-        rays=fitted.rays + passed.size,
+        psf.with_figures(energy=None, predicted_error=None),
+        rays=fitted.rays + fitted.nodes(counts).xi.size,
         sampling=Message("{nodes}, those that the rims let pass", nodes=disc_words(counts)),
         seconds=perf_counter() - traced.begun,
     )

@@ -5,14 +5,17 @@ The reference is the Huygens sum, or that of spherical waves where plane ones wo
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from math import prod
 from statistics import median
 
 from p2sf.errors import SamplingError
 from p2sf.figures.compare import r_squared, relative_l2
-from p2sf.psf.huygens import Watch, first_counts, sum_rays
 from p2sf.psf.methods import METHODS, PsfOptions, method_of, reference_pupil, render
+from p2sf.psf.picture import psf_of_pupil
 from p2sf.psf.result import Psf
 from p2sf.pupil.plane_waves import window_reach_um
+from p2sf.pupil.rays import RayPupil
+from p2sf.pupil.watch import Watch
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.method import PIXELS, window_um
 from p2sf_explorer.compute.warnings import remedy
@@ -60,12 +63,9 @@ def measure(
     if live.psf.method == "geometric" or reference_nodes(live, window) > MOST_NODES:
         raise SamplingError("the blur is too large for a reference here; {remedy}", remedy=remedy(live.setup))
     share = 0.5 if every_method else 1.0
-    reference = sum_rays(
-        reference_pupil(live.setup.lens, live.setup.source, live.state.optics.clip),
-        window,
-        REFERENCE_TOLERANCE,
-        Watch(lambda part: progress(share * part), cancelled),
-    )
+    pupil = reference_pupil(live.setup.lens, live.setup.source, live.state.optics.clip)
+    watch = Watch(lambda part: progress(share * part), cancelled)
+    reference = psf_of_pupil(pupil, window, "settled", REFERENCE_TOLERANCE, watch)
     shown = in_window(live, reference)
     results: tuple[MethodResult, ...] = ()
     if every_method:
@@ -74,11 +74,9 @@ def measure(
 
 
 def reference_nodes(live: Live, window: tuple[int, float]) -> int:
-    """Return how many nodes the first pass of the reference has. Raises as `first_counts` does."""
-    radii, directions = first_counts(
-        live.setup.lens, live.setup.source, window_reach_um(*window), live.state.optics.clip
-    )
-    return radii * directions // 2
+    """Return how many nodes the first pass of the reference has. Raises as `RayPupil.counts` does."""
+    pupil = RayPupil(live.setup.lens, live.setup.source, live.state.optics.clip)
+    return prod(pupil.counts(window_reach_um(*window))) // 2
 
 
 def in_window(live: Live, reference: Psf) -> Psf:

@@ -14,7 +14,8 @@ from p2sf.lens.lens import Aperture, Lens, with_aim
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.pupils import pupils
-from p2sf.psf.huygens import RayPupil
+from p2sf.pupil.plane_waves import window_reach_um
+from p2sf.pupil.rays import RayPupil
 from p2sf.raytrace.pencil import displayed_opd, in_azimuth, on_sensor, pencil, rays_through, reaching_by_surfaces
 from p2sf.studies.listings.row import FOLDER, OPTICSTUDIO, ListedNumber, arrays_of, numbers_of, r_squared_gap
 
@@ -119,7 +120,7 @@ def _map(case: dict[str, Any], source: Source, label: str) -> Iterator[ListedNum
 def _picture(lens: Lens, source: Source) -> np.ndarray:
     """Return the Huygens sum in the axes of the sensor: a picture of a lens of revolution is in those of the field."""
     pupil = RayPupil(lens, source, clip=True)
-    nodes = lens.pupil_domain.unfold(pupil.nodes(pupil.first_counts((PIXELS, PIXEL_UM))))
+    nodes = lens.pupil_domain.unfold(pupil.nodes(pupil.counts(window_reach_um(PIXELS, PIXEL_UM))))
     rays = rays_through(lens, source, nodes).arrived.turned(source.azimuth_deg)
     axis = (np.arange(PIXELS) - PIXELS // 2) * PIXEL_UM
     wavelets = rays.share * rays.amplitude * np.exp(2j * np.pi * (rays.phase + np.outer(axis, rays.fy)))

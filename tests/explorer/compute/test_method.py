@@ -9,6 +9,7 @@ from scipy.interpolate import RectBivariateSpline
 from p2sf.psf import spherical
 from p2sf.psf.choosing import choose
 from p2sf.psf.methods import psf_of
+from p2sf.pupil.rays import RayPupil
 from p2sf_explorer.compute.deferred_sums import ComparisonRequest, SumCache, answer_to
 from p2sf_explorer.compute.finer import CRITICAL, ShownArea, finer, source
 from p2sf_explorer.compute.finer import answer as render_finer
@@ -176,6 +177,6 @@ def test_no_rim_is_followed_within_a_frame(monkeypatch):
     def count(*asked):
         raise AssertionError("the nodes are counted within the frame")
 
-    monkeypatch.setattr(spherical, "first_counts", count)
+    monkeypatch.setattr(RayPupil, "counts", count)
     answer = live(change(with_lens(State(), "fast_gauss_f14"), field_deg=29.9, method="auto"), cache=SumCache())
     assert isinstance(answer.pending, ComparisonRequest) and answer.psf.values.sum() > 0

@@ -3,8 +3,8 @@
 import pytest
 
 from p2sf.figures.compare import r_squared
-from p2sf.psf.fitted import psf_of_fit
 from p2sf.psf.methods import render
+from p2sf.psf.picture import psf_of_pupil
 from p2sf.pupil.fit import fit
 from p2sf_explorer.compute import preview as quick
 from p2sf_explorer.compute.method import window_um
@@ -26,7 +26,7 @@ def moving(lens, **changes):
 @pytest.mark.parametrize(("shift", "few"), [(0.0, 0.9), (-100.0, 0.95)])
 def test_where_few_numbers_are_wrong_more_are_taken(shift, few):
     made, window, exact = moving("petzval", f_number=1.6, field_deg=0.0, sensor_shift_um=shift)
-    alone = psf_of_fit(fit(made.setup.lens, made.setup.source, 26), 0.5876, window, "preview", 0.0)
+    alone = psf_of_pupil(fit(made.setup.lens, made.setup.source, 26), window, "preview")
     assert r_squared(alone.values, exact) < few
     shown = preview_psf(made, *window)
     assert (shown.method, shown.numbers) == ("fitted", 46)

@@ -44,7 +44,7 @@ def noted(patch, gate: Event | None = None):
         return replace(ready, method="traced", pixel_um=pixel_um)
 
     with patch.context() as inner:
-        inner.setattr(methods, "sum_rays", lambda pupil, window, *_: call(window[1]))
+        inner.setattr(methods, "psf_of_pupil", lambda pupil, window, *_: call(window[1]))
         inner.setattr(methods, "traced_psf", lambda lens, source, pixels, pixel_um, *_: call(pixel_um))
         yield found
 

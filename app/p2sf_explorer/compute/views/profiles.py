@@ -10,7 +10,7 @@ from p2sf.errors import P2SFError
 from p2sf.figures.perfect import airy_curves
 from p2sf.messages import Message
 from p2sf.paraxial.seidel import Coefficients
-from p2sf.psf.fitted import fit, fitted_waves
+from p2sf.psf.fitted import fit
 from p2sf.psf.measures import energy_in
 from p2sf.psf.result import Psf
 from p2sf.psf.seidel_stack import as_fit
@@ -149,6 +149,6 @@ def fine_lines(request: MeasureRequest, position: np.ndarray) -> tuple[np.ndarra
     counts = counts_for(found.steepness, abs(float(position[0])))
     if prod(counts) / 2 > MOST_NODES:
         return None
-    waves = fitted_waves(found, counts)
+    waves = found.sample(counts).waves
     middle = np.zeros(1)
     return waves.intensity(position, middle)[0], waves.intensity(middle, position)[:, 0]

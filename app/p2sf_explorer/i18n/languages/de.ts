@@ -3,7 +3,6 @@
 <TS version="2.1" language="de">
 <context>
 <name>p2sf</name>
-<message><source>one pass in float64</source><translation>ein Durchgang in float64</translation></message>
 <message><source>spherical waves from the exit pupil, since plane ones may leave 1 − R² = {error:.1e}</source><translation>Kugelwellen aus der Austrittspupille, da ebene 1 − R² = {error:.1e} übrig lassen können</translation></message>
 <message><source>this blur takes more than some seconds to the accuracy asked for, 1 − R² ≤ {asked:.1e}; this picture of {method} may be wrong throughout; stop down, refocus, or choose a method by its name</source><translation>diese Unschärfe braucht mehr als einige Sekunden für die verlangte Genauigkeit, 1 − R² ≤ {asked:.1e}; dieses Bild von {method} kann ganz falsch sein; abblenden, neu scharfstellen oder ein Verfahren beim Namen wählen</translation></message>
 <message><source>this blur takes more than some seconds to the accuracy asked for, 1 − R² ≤ {asked:.1e}; {method} keeps 1 − R² ≤ {error:.1e}, a relative L2 error of {l2:.1e}</source><translation>diese Unschärfe braucht mehr als einige Sekunden für die verlangte Genauigkeit, 1 − R² ≤ {asked:.1e}; {method} hält 1 − R² ≤ {error:.1e}, einen relativen L2-Fehler von {l2:.1e}</translation></message>
@@ -1790,7 +1789,6 @@
 <message><source>on the pixels, µm</source><translation>auf den Pixeln, µm</translation></message>
 <message><source>on top of the tilts of its file</source><translation>zusätzlich zu den Kippungen seiner Datei</translation></message>
 <message><source>one focus does not determine the common sign of all even terms; add a second focus at a known distance</source><translation>ein Fokus lässt das gemeinsame Vorzeichen aller geraden Terme offen; ein zweiter, bekannter Fokus entscheidet</translation></message>
-<message><source>one pass in float32</source><translation>ein Durchgang in float32</translation></message>
 <message><source>one wavelength, no colour</source><translation>eine Wellenlänge, keine Farbe</translation></message>
 <message><source>one-sided rings and a moved peak</source><translation>einseitige Ringe und eine verschobene Spitze</translation></message>
 <message><source>only some columns of the lens have {name}; give it to all of them or to none</source><translation>nur manche Spalten des Objektivs haben {name}; allen oder keiner geben</translation></message>
