@@ -1,14 +1,8 @@
 """What `p2sf` has, each name once: checkers read it here, and `p2sf` itself on import."""
 
 from p2sf import conventions as conventions
-from p2sf.api import choose_method as choose_method
-from p2sf.api import coefficients as coefficients
-from p2sf.api import encircled_energy as encircled_energy
-from p2sf.api import line_spread as line_spread
 from p2sf.api import load_lens as load_lens
-from p2sf.api import mtf as mtf
 from p2sf.api import render as render
-from p2sf.api import zernike as zernike
 from p2sf.camera import Camera as Camera
 from p2sf.database.files.building import build_database as build_database
 from p2sf.database.files.provenance import Stored as Stored
@@ -51,6 +45,7 @@ from p2sf.lensfile.writing import write_lens as write_lens
 from p2sf.measure.fitting.point_fit import PointFit as PointFit
 from p2sf.measure.single_psf import fit_psf as fit_psf
 from p2sf.named_arrays import NamedArrays as NamedArrays
+from p2sf.object_points import ObjectPoints as ObjectPoints
 from p2sf.paraxial.positions import lens_at as lens_at
 from p2sf.paraxial.seidel import Coefficients as Coefficients
 from p2sf.psf.choosing import Choice as Choice
@@ -66,7 +61,6 @@ from p2sf.scene.scene import Channel as Channel
 from p2sf.scene.scene import Scene as Scene
 from p2sf.scene.sensor import Sensor as Sensor
 from p2sf.studies.tradeoff import tradeoff as tradeoff
-from p2sf.sweep import Sweep as Sweep
 from p2sf.tolerance.errors_of_build import Tolerance as Tolerance
 from p2sf.tolerance.yields import ToleranceStudy as ToleranceStudy
 from p2sf.tolerance.yields import tolerances as tolerances

@@ -1,10 +1,10 @@
-"""A camera: a lens on a sensor, how both are set, and the PSFs, sweeps, pictures and databases that follow."""
+"""A camera: a lens on a sensor, how both are set, and the figures, pictures and databases that follow."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from math import isfinite
 from os import PathLike
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -21,15 +21,14 @@ from p2sf.setting import CameraData, set_up_source, usual_depths
 
 if TYPE_CHECKING:
     from p2sf.database.files.provenance import Stored
-    from p2sf.psf.result import Psf
+    from p2sf.object_points import ObjectPoints
     from p2sf.scene.planning.plan import Plan
-    from p2sf.sweep import Sweep
     from p2sf.tolerance.yields import ToleranceStudy
 
 
 @dataclass(frozen=True, repr=False)
 class Camera(CameraData):
-    """A lens on a sensor and how both are set: what PSFs, sweeps, pictures and databases are asked of.
+    """A lens on a sensor and how both are set: what figures, pictures and databases are asked of.
 
     Every number that the settings do not state is as the lens file has it. Without a lens it is what ``camera`` of
     `p2sf.render` and its like take.
@@ -60,10 +59,8 @@ class Camera(CameraData):
     >>> camera = p2sf.Camera("double_gauss_28", focus_mm=3000, f_number=5.6, pixel_um=4)
     >>> camera
     Camera('double_gauss_28', focus_mm=3000, f_number=5.6, pixel_um=4)
-    >>> camera.psf(3000, field_deg=10, wavelength_nm=550).pixel_um
+    >>> camera.at(depth_mm=3000, field_deg=10, wavelength_nm=550).psf().pixel_um
     4
-    >>> camera.sweep(depth_mm=3000, field_deg=[0, 7, 14]).mtf(20)["tangential"].round(2)
-    array([0.79, 0.53, 0.06])
 
     A camera without a lens sets any:
 
@@ -78,39 +75,109 @@ class Camera(CameraData):
             object.__setattr__(self, "lens", load_lens(self.lens))
         super().__post_init__()
 
-    def psf(
+    @overload
+    def at(  # type: ignore[overload-overlap]  # a number is array_like too, and means one point
         self,
+        source: Source | None = None,
+        *,
         depth_mm: float | None = None,
-        *,
-        field_deg: float | tuple[float, float] = 0.0,
+        field_deg: float | None = None,
+        field_x_deg: float | None = None,
         wavelength_nm: float | None = None,
-        **how: Any,
-    ) -> "Psf":
-        """Return the PSF of one source, `p2sf.render` with this camera.
-
-        The source is that of `source`; ``how``: ``method``, ``pixels``, ``pixel_um``, ``quality``, ``min_r2``,
-        ``clip``, ``integrated`` and ``threads`` as `p2sf.render` has them, whose errors it raises.
-        """
-        from p2sf.api import render
-
-        return render(self.its_lens, self.source(depth_mm, field_deg, wavelength_nm), camera=self, **how)
-
-    def sweep(
-        self,
-        *,
         threads: int | None = None,
         progress: Callable[[float], object] | bool = False,
         scheduler: Any = None,
-        **axes: ArrayLike,
-    ) -> "Sweep":
-        """Return the sweep of this camera over arrays of ``depth_mm``, ``field_deg``, ``wavelength_nm`` or its numbers.
+        **numbers: float | str,
+    ) -> "ObjectPoints[Literal['one']]": ...
 
-        See `p2sf.Sweep`, whose parameters these are and whose errors it raises. Nothing is computed before a figure is
-        asked for.
+    @overload
+    def at(
+        self,
+        source: Source | None = None,
+        *,
+        depth_mm: ArrayLike | None = None,
+        field_deg: ArrayLike | None = None,
+        field_x_deg: ArrayLike | None = None,
+        wavelength_nm: ArrayLike | None = None,
+        threads: int | None = None,
+        progress: Callable[[float], object] | bool = False,
+        scheduler: Any = None,
+        **numbers: ArrayLike,
+    ) -> "ObjectPoints[Literal['several']]": ...
+
+    def at(
+        self,
+        source: Source | None = None,
+        *,
+        depth_mm: ArrayLike | None = None,
+        field_deg: ArrayLike | None = None,
+        field_x_deg: ArrayLike | None = None,
+        wavelength_nm: ArrayLike | None = None,
+        threads: int | None = None,
+        progress: Callable[[float], object] | bool = False,
+        scheduler: Any = None,
+        **numbers: ArrayLike,
+    ) -> "ObjectPoints[Any]":
+        """Return the object point, or points, of which figures can be asked; nothing is computed before that.
+
+        Parameters
+        ----------
+        source : Source, optional
+            One point as a source, instead of what follows.
+        depth_mm, field_deg, field_x_deg, wavelength_nm : float or array_like, optional
+            Distance of the object, mm; angle of its chief ray up and across, degrees; wavelength, nm. An array (n,) is
+            an axis, a single number none. By default as for `source`.
+        threads : int, optional
+            As for `p2sf.render`; of several points each computes other points.
+        progress : callable or bool
+            Called with the share that is done, 0 to 1; True shows it on the screen.
+        scheduler : str or object, optional
+            Who computes the points instead of threads: the address of a dask scheduler, its client, or anything with a
+            ``map`` like that of `concurrent.futures.Executor`.
+        numbers
+            Any setting of a camera that it does not state itself, one or an array, such as ``f_number=[4, 5.6, 8]``.
+
+        Returns
+        -------
+        ObjectPoints
+            With `psf`, `mtf`, `energy`, `line_spread`, `strehl`, `coefficients`, `zernike`, `rays`, `performance` and
+            `choose_method`: plain results of one point, `NamedArrays` over several.
+
+        Raises
+        ------
+        RequestError
+            For a camera without a lens, a name that is no axis, and values that cannot be.
+
+        Examples
+        --------
+        >>> import p2sf
+        >>> camera = p2sf.Camera("double_gauss_28", focus_mm=3000, f_number=5.6)
+        >>> camera.at(depth_mm=3000, field_deg=10).psf().method
+        'fitted'
+        >>> camera.at(depth_mm=3000, field_deg=[0, 7, 14]).mtf(20)["tangential"].round(2)
+        array([0.79, 0.53, 0.06])
         """
-        from p2sf.sweep import Sweep
+        from p2sf.object_points import ObjectPoints
 
-        return Sweep(self, axes, threads, progress, scheduler)
+        if not isinstance(source, Source | None):
+            raise RequestError(
+                "{parameter} is {value}; give a p2sf.Source, or name what it is, such as depth_mm=3000",
+                parameter="source",
+                value=f"{source!r:.60}",
+            )
+        of_source = {"depth_mm": depth_mm, "field_deg": field_deg, "field_x_deg": field_x_deg}
+        of_source["wavelength_nm"] = wavelength_nm
+        axes = numbers | {name: value for name, value in of_source.items() if value is not None}
+        points = ObjectPoints[Any](self, axes, source, threads, progress, scheduler)
+        return points if points.sizes else points.points[0]
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            """Raise AttributeError, which says of a method of earlier versions what is written instead."""
+            if name in ("psf", "sweep"):
+                raise AttributeError(f"a camera has no {name} any more; write camera.at(depth_mm=…, field_deg=…).psf()")
+            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}", name=name, obj=self)
 
     def database(
         self,

@@ -1,4 +1,4 @@
-"""Arrays with names on their axes: what sweeps and databases answer, for numpy, pandas and xarray alike."""
+"""Arrays with names on their axes: what points over axes and databases answer, for numpy, pandas and xarray alike."""
 
 import json
 from collections.abc import Iterator, Mapping

@@ -40,13 +40,13 @@ class Performance:
     frequency_per_mm : numpy.ndarray
         (n,) cycles per mm on the sensor.
     rms_waves : float
-        RMS of the wavefront without piston and tilt, as `p2sf.zernike` has it.
+        RMS of the wavefront without piston and tilt, as `ObjectPoints.zernike` has it.
     strehl : float
         As `p2sf.render` has it.
     tangential, sagittal : numpy.ndarray
-        (n,) contrasts of `p2sf.mtf`.
+        (n,) contrasts of `ObjectPoints.mtf`.
     radius_80_um : float
-        Radius about the centroid that holds 80 % of the light, µm, as `p2sf.encircled_energy` has it.
+        Radius about the centroid that holds 80 % of the light, µm, as `ObjectPoints.energy` has it.
     distortion : float
         Height of the chief ray over its paraxial height, less 1.
     illumination : float

@@ -48,7 +48,7 @@ def test_a_quantity_is_converted_to_the_unit_of_its_parameter():
     one = p2sf.render(LENS, asked, focus_mm=2 * unit.m, pixel_um=2000 * unit.nm, pixels=8, f_number=8 * unit.one)
     other = p2sf.render(LENS, asked, focus_mm=2000.0, pixel_um=2.0, pixels=8, f_number=8)
     np.testing.assert_allclose(one.values, other.values, rtol=1e-9)
-    found = p2sf.mtf(LENS, frequency_per_mm=[500, 1000] / unit.cm)
+    found = p2sf.Camera(LENS).at().mtf([500, 1000] / unit.cm)
     np.testing.assert_allclose(found.frequency_per_mm, [50, 100], rtol=1e-14)
     covered = p2sf.build_database(LENS, [1, 2] * unit.m, [0, 5] * unit.deg, [0.5 * unit.um, 600 * unit.nm]).meta
     assert covered["covers"]["depth_mm"] == [1000, 2000]
@@ -63,7 +63,7 @@ def test_a_quantity_is_converted_to_the_unit_of_its_parameter():
     [
         lambda unit: p2sf.Source(3 * unit.s),
         lambda unit: p2sf.render(LENS, f_number=3 * unit.m),
-        lambda unit: p2sf.mtf(LENS, frequency_per_mm=50 * unit.mm),
+        lambda unit: p2sf.Camera(LENS).at().mtf(50 * unit.mm),
         lambda unit: p2sf.psf_of_opd(np.zeros((32, 32)) * unit.nm, 0.1, 550),
         lambda unit: surface(radius=50 * unit.s),
         lambda unit: surface(conic=1 * unit.mm),
@@ -99,7 +99,7 @@ def test_a_quantity_of_pint_is_converted_too():
     assert p2sf.Source(3 * np.float64(1), wavelength_nm=Pint(550, "nm")).wavelength_um == pytest.approx(0.55)
     camera = p2sf.Camera(LENS, focus_mm=Pint(2, "m"), f_number=Pint(8, ""))
     assert (camera.focus_mm, camera.f_number) == (2000, 8)
-    assert camera.sweep(depth_mm=Pint([1, 2], "m")).axes["depth_mm"].tolist() == [1000, 2000]
+    assert camera.at(depth_mm=Pint([1, 2], "m")).axes["depth_mm"].tolist() == [1000, 2000]
     with pytest.raises(p2sf.P2SFError):
         p2sf.Source(Pint(3, "s"))
 
@@ -108,7 +108,7 @@ def test_quantities_of_pint_itself():
     unit = pytest.importorskip("pint").UnitRegistry()
     asked = p2sf.Source(3 * unit.m, field_deg=0.1 * unit.rad, wavelength_nm=0.55 * unit.um)
     assert (asked.depth_mm, asked.wavelength_um) == (3000, pytest.approx(0.55, rel=1e-15))
-    assert p2sf.mtf(LENS, frequency_per_mm=np.array([50, 100]) / unit.mm).frequency_per_mm.tolist() == [50, 100]
+    assert p2sf.Camera(LENS).at().mtf(np.array([50, 100]) / unit.mm).frequency_per_mm.tolist() == [50, 100]
     with pytest.raises(p2sf.P2SFError):
         p2sf.Source(3 * unit.s)
 
@@ -139,20 +139,18 @@ def test_lists_and_arrays_are_tuples():
 
 
 def test_one_frequency_radius_or_position_is_enough():
-    np.testing.assert_array_equal(
-        p2sf.mtf(LENS, frequency_per_mm=50).sagittal, p2sf.mtf(LENS, frequency_per_mm=[50.0]).sagittal
-    )
-    assert p2sf.encircled_energy(LENS, radius_um=5).fraction.shape == (1,)
-    assert p2sf.line_spread(LENS, position_um=0).edge_x == pytest.approx(0.5, abs=1e-3)
+    np.testing.assert_array_equal(p2sf.Camera(LENS).at().mtf(50).sagittal, p2sf.Camera(LENS).at().mtf([50.0]).sagittal)
+    assert p2sf.Camera(LENS).at().energy(5).fraction.shape == (1,)
+    assert p2sf.Camera(LENS).at().line_spread(0).edge_x == pytest.approx(0.5, abs=1e-3)
     one = p2sf.tradeoff(LENS, depths_mm=1000, fields_deg=5, wavelengths_nm=550, methods="seidel", pixels=8)[0]
     assert (one.depth_mm, one.field_deg) == (1000, 5)
 
 
 WRONG = {
     "a source that is a number": lambda: p2sf.render(LENS, 10),
-    "a source for coefficients": lambda: p2sf.coefficients(LENS, "axis"),
-    "a source for a choice": lambda: p2sf.choose_method(LENS, 5),
-    "a source for an MTF": lambda: p2sf.mtf(LENS, 5),
+    "a source for coefficients": lambda: p2sf.Camera(LENS).at("axis").coefficients(),
+    "a source for a choice": lambda: p2sf.Camera(LENS).at(5).choose_method(),
+    "a source for an MTF": lambda: p2sf.Camera(LENS).at(5).mtf(),
     "a depth as a text": lambda: p2sf.Source("3000"),
     "depths in a list": lambda: p2sf.Source([3000, 1000]),
     "a complex wavelength": lambda: p2sf.Source(wavelength_nm=550j),
@@ -164,14 +162,14 @@ WRONG = {
     "a tolerance as a text": lambda: p2sf.render(LENS, min_r2="0.9"),
     "a clip as a text": lambda: p2sf.render(LENS, clip="no"),
     "integrated as a text": lambda: p2sf.render(LENS, integrated="no"),
-    "half a term": lambda: p2sf.zernike(LENS, terms=3.5),
-    "terms as a text": lambda: p2sf.zernike(LENS, terms="37"),
-    "frequencies in two axes": lambda: p2sf.mtf(LENS, frequency_per_mm=[[1, 2], [3, 4]]),
-    "a frequency that is NaN": lambda: p2sf.mtf(LENS, frequency_per_mm=[nan]),
-    "a frequency as a text": lambda: p2sf.mtf(LENS, frequency_per_mm="50"),
-    "an angle as a text": lambda: p2sf.mtf(LENS, turn_deg="x"),
-    "an infinite radius": lambda: p2sf.encircled_energy(LENS, radius_um=[inf]),
-    "a position where the sum repeats": lambda: p2sf.line_spread(LENS, position_um=1e9),
+    "half a term": lambda: p2sf.Camera(LENS).at().zernike(terms=3.5),
+    "terms as a text": lambda: p2sf.Camera(LENS).at().zernike(terms="37"),
+    "frequencies in two axes": lambda: p2sf.Camera(LENS).at().mtf([[1, 2], [3, 4]]),
+    "a frequency that is NaN": lambda: p2sf.Camera(LENS).at().mtf([nan]),
+    "a frequency as a text": lambda: p2sf.Camera(LENS).at().mtf("50"),
+    "an angle as a text": lambda: p2sf.Camera(LENS).at().mtf(turn_deg="x"),
+    "an infinite radius": lambda: p2sf.Camera(LENS).at().energy([inf]),
+    "a position where the sum repeats": lambda: p2sf.Camera(LENS).at().line_spread(1e9),
     "a field as a text": lambda: p2sf.tradeoff(LENS, fields_deg=["a"]),
     "nodes as a text": lambda: p2sf.build_database(LENS, ["a"], [0], [550]),
     "complex nodes": lambda: p2sf.build_database(LENS, [1000j], [0], [550]),
@@ -198,16 +196,16 @@ WRONG = {
     "a tilt as a text": lambda: p2sf.Placement(tilt_x_deg="1"),
     "a setting by position": lambda: p2sf.Camera("achromat_f6", pixel_um="4"),
     "a field of three": lambda: p2sf.Source(field_deg=(1, 2, 3)),
-    "an axis that is none": lambda: p2sf.Camera(LENS).sweep(fields_deg=[0, 5]),
+    "an axis that is none": lambda: p2sf.Camera(LENS).at(fields_deg=[0, 5]),
     "an R² for an error": lambda: p2sf.Scene(SCENE.sensor, rtol=5),
     "two limits": lambda: p2sf.Scene(SCENE.sensor, rtol=0.1, min_r2=0.99),
     "a wavefront that is not square": lambda: p2sf.Pupil(np.zeros((8, 9)), 0.1, 550),
     "a PSF in two rows": lambda: p2sf.fit_psf(np.zeros(9), na=0.1, wavelength_nm=550, pixel_um=1),
     "a limit of nothing": lambda: p2sf.Camera("achromat_f6").tolerances({"sharpness": 0.3}),
     "a number for a scheduler": lambda: p2sf.form_image(p2sf.plan(LENS, SCENE), PICTURE, scheduler=5),
-    "a number for the scheduler of a sweep": lambda: p2sf.Camera(LENS).sweep(depth_mm=[3000], scheduler=5).strehl(),
+    "a number for the scheduler of points": lambda: p2sf.Camera(LENS).at(depth_mm=[3000], scheduler=5).strehl(),
     "no pixels": lambda: p2sf.Camera("achromat_f6").photograph(PICTURE),
-    "no lens": lambda: p2sf.Camera(f_number=8).psf(3000),
+    "no lens": lambda: p2sf.Camera(f_number=8).at(depth_mm=3000),
     "a stop as a text": lambda: lens(stop_surface="1"),
     "a wavelength of a lens as a text": lambda: lens(wavelengths_nm=("550",)),
     "fields of a lens as a text": lambda: lens(fields_deg="5"),

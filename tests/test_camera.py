@@ -64,12 +64,6 @@ NOT_IN_SCENE = {name for name in SAMPLES if name not in ("zoom", "focus_position
 KEYWORDS = {name: SAMPLES[name] for name in ("focus_mm", "sensor_shift_um", "f_number", "stop", "aim")}
 CALLS = {
     "render": lambda **camera: p2sf.render(LENS, SOURCE, "traced", pixels=16, pixel_um=2.0, **camera),
-    "coefficients": lambda **camera: p2sf.coefficients(LENS, SOURCE, **camera),
-    "zernike": lambda **camera: p2sf.zernike(LENS, SOURCE, terms=6, **camera),
-    "choose_method": lambda **camera: p2sf.choose_method(LENS, SOURCE, **camera),
-    "mtf": lambda **camera: p2sf.mtf(LENS, SOURCE, frequency_per_mm=20, **camera),
-    "encircled_energy": lambda **camera: p2sf.encircled_energy(LENS, SOURCE, radius_um=5, **camera),
-    "line_spread": lambda **camera: p2sf.line_spread(LENS, SOURCE, position_um=1, **camera),
     "build_database": lambda **camera: p2sf.build_database(LENS, [2000, inf], [0, 1], [550, 600], **camera).database,
     "tradeoff": lambda **camera: (
         p2sf.tradeoff(LENS, depths_mm=5000, fields_deg=1, wavelengths_nm=550, methods="seidel", pixels=8, **camera)[
@@ -208,7 +202,7 @@ def test_keywords_add_to_a_camera():
 @pytest.mark.parametrize("camera", [None, 5.6, {"f_number": 5.6}, Request(f_number=5.6)])
 def test_what_is_no_camera_is_refused(camera):
     with pytest.raises(p2sf.P2SFError) as raised:
-        p2sf.coefficients(LENS, SOURCE, camera=camera)
+        p2sf.render(LENS, SOURCE, camera=camera)
     assert raised.value.message.values["parameter"] == "camera"
 
 
@@ -234,18 +228,18 @@ def test_a_camera_with_its_lens_is_that_lens_so_set():
     assert eval(repr(camera)) == camera == pickle.loads(pickle.dumps(camera))
     source = camera.source(5000, 1, 550)
     assert source == p2sf.Source(5000, field_deg=1, wavelength_nm=550)
-    mine = camera.psf(5000, field_deg=1, wavelength_nm=550, pixels=16)
+    mine = camera.at(depth_mm=5000, field_deg=1, wavelength_nm=550).psf(pixels=16)
     assert same(mine, p2sf.render(LENS, source, pixels=16, pixel_um=3.0, focus_mm=4000, f_number=9.0))
     assert same(mine, p2sf.render(LENS, source, pixels=16, camera=camera))
-    assert camera.psf(5000, pixels=16, pixel_um=2.0).pixel_um == 2.0
+    assert camera.at(depth_mm=5000).psf(pixels=16, pixel_um=2.0).pixel_um == 2.0
     assert camera.source().wavelength_um == pytest.approx(LENS.reference_wavelength_um, rel=1e-15)
 
 
 def test_a_camera_is_no_other_lens_than_the_one_of_the_call():
-    for call in (lambda: p2sf.coefficients(find_lens("tessar"), camera=Camera(LENS)), Camera(f_number=8).psf):
+    for call in (lambda: p2sf.render(find_lens("tessar"), camera=Camera(LENS)), Camera(f_number=8).at):
         with pytest.raises(RequestError):
             call()
-    assert p2sf.coefficients(lens=find_lens("achromat_f6"), camera=Camera(LENS)) == p2sf.coefficients(LENS)
+    assert same(p2sf.render(lens=find_lens("achromat_f6"), camera=Camera(LENS)), p2sf.render(LENS))
 
 
 @pytest.mark.parametrize("wrong", [{"lens": 5.6}, {"lens": LENS, "pixel_um": 0.0}, {"lens": "no_such_lens"}])

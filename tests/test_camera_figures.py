@@ -27,7 +27,7 @@ def test_a_database_covers_the_lens_as_it_is_set():
     source = CAMERA.source(3000, 0.5)
     for own, direct in zip(
         vars(found.coefficients(source)).values(),
-        vars(p2sf.coefficients(LENS, source, camera=CAMERA)).values(),
+        vars(CAMERA.at(source).coefficients()).values(),
         strict=True,
     ):
         assert own == pytest.approx(direct, abs=1e-9)

@@ -27,7 +27,7 @@ LAYERS = (
     "p2sf.tolerance p2sf.database p2sf.image",
     "p2sf.export p2sf.measure p2sf.studies p2sf.performance",
     "p2sf.api p2sf_explorer.i18n p2sf_explorer.state",
-    "p2sf.sweep p2sf_explorer.compute",
+    "p2sf.object_points p2sf_explorer.compute",
     "p2sf.camera p2sf_explorer.charts p2sf_explorer.store p2sf_explorer.report p2sf_explorer.notebook_widget",
     "p2sf.cli p2sf_explorer.files p2sf_explorer.handbook",
     "p2sf_explorer.widgets",

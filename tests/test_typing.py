@@ -34,4 +34,4 @@ def test_a_checker_finds_names_that_there_are_not(tmp_path):
 def test_the_script_runs(tmp_path, capsys):
     runpy.run_path(str(SCRIPT))["main"](tmp_path)
     assert "<Lens" in capsys.readouterr().out and (tmp_path / "lens.toml").exists()
-    assert {"Medium", "Choice", "Plan", "Sweep", "NamedArrays"} <= set(p2sf.__all__)
+    assert {"Medium", "Choice", "Plan", "ObjectPoints", "NamedArrays"} <= set(p2sf.__all__)

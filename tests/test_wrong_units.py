@@ -58,11 +58,11 @@ def test_a_thing_a_metre_away_may_be_out_of_focus(focus_mm):
 
 def test_results_can_be_compared():
     """By hand: the same call twice has the same numbers, and another depth has not."""
-    sweeps = [p2sf.Camera(LENS).sweep(depth_mm=[2000, far]).coefficients() for far in (3000, 3000, 4000)]
-    assert sweeps[0] == sweeps[1] and sweeps[0] != sweeps[2] and sweeps[0] != {} and sweeps[0] != 1
+    found = [p2sf.Camera(LENS).at(depth_mm=[2000, far]).coefficients() for far in (3000, 3000, 4000)]
+    assert found[0] == found[1] and found[0] != found[2] and found[0] != {} and found[0] != 1
     missing = p2sf.NamedArrays({"a": (("x",), np.array([np.nan, 1.0]))}, {})
     assert missing == p2sf.NamedArrays({"a": (("x",), np.array([np.nan, 1.0]))}, {})
-    fits = [p2sf.zernike(LENS, terms=6) for _ in range(2)]
+    fits = [p2sf.Camera(LENS).at().zernike(terms=6) for _ in range(2)]
     assert fits[0] == fits[0] and fits[0] != fits[1] and len({*fits}) == 2  # as PSFs are compared: by identity
 
 

@@ -63,9 +63,9 @@ def fit_psf(
     Examples
     --------
     >>> import p2sf
-    >>> psf = p2sf.render(p2sf.load_lens("achromat_f6"), p2sf.Source(5000, wavelength_nm=550), "seidel", focus_mm=5000)
-    >>> six = p2sf.coefficients(p2sf.load_lens("achromat_f6"), p2sf.Source(5000, wavelength_nm=550), focus_mm=5000)
-    >>> found = p2sf.fit_psf(psf.values, float(six.na), 550, psf.pixel_um, integrated=False)
+    >>> point = p2sf.Camera("achromat_f6", focus_mm=5000).at(depth_mm=5000, wavelength_nm=550)
+    >>> psf = point.psf("seidel")
+    >>> found = p2sf.fit_psf(psf.values, float(point.coefficients().na), 550, psf.pixel_um, integrated=False)
     >>> bool(found.r2[0] > 0.9999)
     True
     """

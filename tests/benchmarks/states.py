@@ -18,7 +18,8 @@ from math import inf
 from pathlib import Path
 from signal import SIGXCPU
 
-from p2sf.api import encircled_energy, load_lens, mtf, render
+from p2sf.api import load_lens, render
+from p2sf.camera import Camera
 from p2sf.errors import P2SFError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
@@ -36,10 +37,10 @@ def _psf(method: str) -> Work:
 
 WORKS: dict[str, Work] = {
     **{f"psf {method}": _psf(method) for method in ("auto", "seidel", "fitted", "traced", "huygens")},
-    "mtf": lambda lens, source, clip: mtf(lens, source, clip=clip),
-    "energy": lambda lens, source, clip: encircled_energy(lens, source, clip=clip),
-    "mtf d65": lambda lens, source, clip: mtf(lens, source, clip=clip, spectrum="d65"),
-    "energy d65": lambda lens, source, clip: encircled_energy(lens, source, clip=clip, spectrum="d65"),
+    "mtf": lambda lens, source, clip: Camera(lens).at(source).mtf(clip=clip),
+    "energy": lambda lens, source, clip: Camera(lens).at(source).energy(clip=clip),
+    "mtf d65": lambda lens, source, clip: Camera(lens).at(source).mtf(clip=clip, spectrum="d65"),
+    "energy d65": lambda lens, source, clip: Camera(lens).at(source).energy(clip=clip, spectrum="d65"),
 }
 QUICK = "psf auto", "psf huygens"
 

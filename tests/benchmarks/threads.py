@@ -40,13 +40,13 @@ def public_calls() -> Calls:
     exact, fitted = (p2sf.build_database(lens, *axes, method=method) for method in ("seidel", "fitted"))
     opd = np.add.outer(np.linspace(-1, 1, 128) ** 2, np.linspace(-1, 1, 128) ** 4)
     calls: Calls = {
-        "coefficients": lambda: p2sf.coefficients(lens, near),
-        "choose_method": lambda: p2sf.choose_method(lens, near),
-        "zernike": lambda: p2sf.zernike(lens, near),
-        "mtf": lambda: p2sf.mtf(lens, near),
-        "mtf of a spectrum": lambda: p2sf.mtf(lens, near, spectrum="d65"),
-        "encircled_energy": lambda: p2sf.encircled_energy(lens, near),
-        "line_spread": lambda: p2sf.line_spread(lens, near),
+        "coefficients": lambda: p2sf.Camera(lens).at(near).coefficients(),
+        "choose_method": lambda: p2sf.Camera(lens).at(near).choose_method(),
+        "zernike": lambda: p2sf.Camera(lens).at(near).zernike(),
+        "mtf": lambda: p2sf.Camera(lens).at(near).mtf(),
+        "mtf of a spectrum": lambda: p2sf.Camera(lens).at(near).mtf(spectrum="d65"),
+        "encircled_energy": lambda: p2sf.Camera(lens).at(near).energy(),
+        "line_spread": lambda: p2sf.Camera(lens).at(near).line_spread(),
         "build_database seidel": lambda: p2sf.build_database(lens, *axes),
         "build_database fitted": lambda: p2sf.build_database(lens, *axes, method="fitted"),
         "plan": lambda: p2sf.plan(lens, small),

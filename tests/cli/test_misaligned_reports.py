@@ -39,12 +39,12 @@ def test_info_coefficients_and_spot_say_what_is_misaligned(moved, capsys):
 
 def test_coefficients_of_a_misaligned_lens_warn(moved):
     with pytest.warns(P2SFWarning, match="those of the aligned lens"):
-        p2sf.coefficients(p2sf.load_lens(moved))
+        p2sf.Camera(p2sf.load_lens(moved)).at().coefficients()
 
 
 def test_a_lens_moved_along_its_axis_is_aligned_and_warns_of_nothing(recwarn):
     lens = displaced(p2sf.load_lens("cooke_triplet"), 3, 4, Placement(decentre_z=0.2))
-    p2sf.coefficients(lens)
+    p2sf.Camera(lens).at().coefficients()
     assert not recwarn.list
 
 
@@ -54,9 +54,9 @@ def test_focus_of_a_folded_lens_is_where_rays_meet():
     bent = folded(lens, 20.0)
     for depth in (np.inf, 800.0):
         source = p2sf.Source(depth, wavelength_nm=587.5618)
-        one, other = (p2sf.zernike(each, source, focus_mm=depth).rms for each in (lens, bent))
+        one, other = (p2sf.Camera(each, focus_mm=depth).at(source).zernike().rms for each in (lens, bent))
         # Foci are found by rays 1e-3 of the radius from the chief ray, its square relative to the paraxial one.
         assert other == pytest.approx(one, rel=1e-4)
     off = with_sensor(bent, bent.sensor_mm + 0.3)
-    one, other = (p2sf.zernike(each, focus_mm=np.inf).rms for each in (bent, off))
+    one, other = (p2sf.Camera(each, focus_mm=np.inf).at().zernike().rms for each in (bent, off))
     assert other == pytest.approx(one, rel=1e-6)

@@ -55,7 +55,7 @@ def test_rims_clip_as_in_the_library(answer, refused):
     own, whole = (p2sf.render(lens, source, pixels=64, pixel_um=4.0, clip=clip) for clip in (True, False))
     found = answer("psf", *place, "--pixel-um", 4, "--clip")
     assert found["strehl"] == pytest.approx(own.strehl, rel=1e-9) and abs(own.strehl / whole.strehl - 1) > 0.1
-    all_light = p2sf.encircled_energy(lens, source, own.method, clip=True)
+    all_light = p2sf.Camera(lens).at(source).energy(method=own.method, clip=True)
     assert found["radius_80_um"] == pytest.approx(all_light.radius_80_um, rel=1e-6)  # that of its root
     line = ("--spectrum", f"lines:{1000 * source.wavelength_um}", "--pixel-um", 4)
     assert answer("psf", *place, *line, "--clip")["methods"] == [own.method] != answer("psf", *place, *line)["methods"]

@@ -12,7 +12,7 @@ PLACE = ("zernike", "telephoto", "--field-deg", "7", "--aim", "paraxial")
 
 def test_json_has_the_terms_of_the_library(answer):
     found = answer(*PLACE, "--basis", "fringe", "--terms", "16")
-    ours = p2sf.zernike(p2sf.load_lens("telephoto"), p2sf.Source(field_deg=7), "fringe", 16, aim="paraxial")
+    ours = p2sf.Camera(p2sf.load_lens("telephoto"), aim="paraxial").at(p2sf.Source(field_deg=7)).zernike("fringe", 16)
     # 7° and 587.5618 nm are converted to and fro: 1e-16 of a path of 1e5 waves.
     assert [term["waves"] for term in found["terms"]] == pytest.approx(ours.waves.tolist(), abs=1e-9)
     assert found["rms"] == pytest.approx(ours.rms, rel=1e-8)

@@ -11,7 +11,7 @@ from scipy.fft import dct
 from scipy.optimize import brentq
 from scipy.special import j0
 
-from p2sf.api import encircled_energy
+import p2sf
 from p2sf.disc.domain import WHOLE
 from p2sf.disc.mask import CLEAR, PupilMask
 from p2sf.errors import GeometryError
@@ -219,7 +219,7 @@ def test_a_relay_at_infinity_is_refused_before_its_outline_is_sought(name, monke
 
     monkeypatch.setattr("p2sf.pupil.clear_curves._edge", sought)
     with pytest.raises(GeometryError) as caught:
-        encircled_energy(find_lens(name), Source())
+        p2sf.Camera(find_lens(name)).at(Source()).energy()
     assert 0 < caught.value.message.values["percent"] < 5
 
 
@@ -227,8 +227,8 @@ def test_a_relay_at_infinity_is_refused_before_its_outline_is_sought(name, monke
 def test_the_quoted_radii_hold_their_shares(field):
     """Within those radii lies what the curve itself says, to the line that its smallest steps are taken for."""
     lens, source = find_lens("double_gauss_28"), Source(field_deg=field, wavelength_um=0.55)
-    found = encircled_energy(lens, source, method="fitted")
-    held = encircled_energy(lens, source, method="fitted", radius_um=[found.radius_50_um, found.radius_80_um]).fraction
+    found = p2sf.Camera(lens).at(source).energy(method="fitted")
+    held = p2sf.Camera(lens).at(source).energy([found.radius_50_um, found.radius_80_um], method="fitted").fraction
     np.testing.assert_allclose(held, [0.5, 0.8], atol=1e-8)
 
 

@@ -58,9 +58,9 @@ def test_lines_are_the_sums_of_columns():
 def test_figures_of_a_lens_by_samples_are_near_those_of_its_pupil():
     source = p2sf.Source(3000, field_deg=5, wavelength_nm=550)
     psf = p2sf.render(LENS, source, "traced", pixels=256, focus_mm=3000, f_number=8, integrated=False)
-    own, of_pupil = psf.mtf([20, 60]), p2sf.mtf(LENS, source, frequency_per_mm=[20, 60], focus_mm=3000, f_number=8)
+    own, of_pupil = psf.mtf([20, 60]), p2sf.Camera(LENS, focus_mm=3000, f_number=8).at(source).mtf([20, 60])
     np.testing.assert_allclose(own.tangential, of_pupil.tangential, atol=own.predicted_error + 1e-3)
-    light = p2sf.encircled_energy(LENS, source, radius_um=[10.0], focus_mm=3000, f_number=8)
+    light = p2sf.Camera(LENS, focus_mm=3000, f_number=8).at(source).energy([10.0])
     assert psf.encircled_energy([10.0]).fraction == pytest.approx(light.fraction, abs=5e-3)
 
 
@@ -83,9 +83,8 @@ def test_a_stack_is_refused():
 @pytest.mark.parametrize("integrated", [True, False])
 def test_a_psf_tells_its_coefficients(integrated):
     lens, source = p2sf.load_lens("achromat_f6"), p2sf.Source(5000, field_deg=1, wavelength_nm=550)
-    camera = p2sf.Camera(focus_mm=4500)
-    six = p2sf.coefficients(lens, source, camera=camera)
-    psf = p2sf.render(lens, source, "seidel", camera=camera, integrated=integrated)
+    point = p2sf.Camera(lens, focus_mm=4500).at(source)
+    six, psf = point.coefficients(), point.psf("seidel", integrated=integrated)
     found = p2sf.fit_psf(psf.values, float(six.na), 550, psf.pixel_um, integrated=integrated)
     expected = np.array([six.w40, six.w31, six.w22, six.w20 + six.wd])
     solutions = np.array([found.numbers, *found.others])

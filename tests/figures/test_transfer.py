@@ -212,5 +212,5 @@ def test_contrast_in_daylight_is_refused_at_the_first_wavelength(monkeypatch):
 
     monkeypatch.setitem(measures.PUPILS, "traced", counted)
     with pytest.raises(SamplingError) as caught:
-        p2sf.mtf(find_lens("fast_gauss_f14"), Source(field_deg=15), spectrum="d65", method="traced")
+        p2sf.Camera(find_lens("fast_gauss_f14")).at(Source(field_deg=15)).mtf(spectrum="d65", method="traced")
     assert caught.value.message.values["waves"] > 1000 and len(pupils) == 1

@@ -28,7 +28,7 @@ STATED = {"depth_mm": 2100, "field_deg": 4.0, "wavelength_nm": 546.0, "focus_mm"
 
 @pytest.fixture(scope="module")
 def psf():
-    return CAMERA.psf(2100, field_deg=4, wavelength_nm=546, pixels=16)
+    return CAMERA.at(**AT).psf(pixels=16)
 
 
 def check(record, psf):
@@ -70,7 +70,7 @@ def test_the_hash_is_that_of_the_lens_and_of_no_other(psf, tmp_path):
     assert (
         psf.provenance["lens"]["sha256_of_toml"] == hashlib.sha256((tmp_path / "tessar.toml").read_bytes()).hexdigest()
     )
-    other = p2sf.Camera("cooke_triplet", focus_mm=1500).psf(2100, pixels=8, method="seidel")
+    other = p2sf.Camera("cooke_triplet", focus_mm=1500).at(depth_mm=2100).psf("seidel", pixels=8)
     assert other.provenance["lens"]["sha256_of_toml"] != psf.provenance["lens"]["sha256_of_toml"]
 
 
@@ -92,7 +92,7 @@ def test_a_dataset_of_one_psf_has_its_record_and_its_energy(psf):
     assert {name: data.attrs[name] for name in STATED} == pytest.approx(STATED, rel=1e-12)
     assert (data.attrs["lens"], data.attrs["method"], data.attrs["mask_blades"]) == ("tessar", psf.method, 7)
     assert data.attrs["predicted_error"] == psf.predicted_error
-    far = CAMERA.psf(np.inf, pixels=8, method="seidel").to_xarray()
+    far = CAMERA.at(depth_mm=np.inf).psf("seidel", pixels=8).to_xarray()
     assert far.attrs["depth_mm"] == np.inf
     stack = replace(
         psf.with_figures(energy=np.array([0.5, 0.6]), strehl=None, peak_um=None), values=np.stack([psf.values] * 2)
@@ -103,26 +103,28 @@ def test_a_dataset_of_one_psf_has_its_record_and_its_energy(psf):
 def test_a_dataset_can_be_stored(psf, tmp_path):
     """By any format of xarray: netCDF knows texts and numbers only."""
     xarray = pytest.importorskip("xarray")
-    swept = CAMERA.sweep(**AT | {"depth_mm": [1000, np.inf]}).to_xarray(pixels=8)
-    for number, data in enumerate((psf.to_xarray(), swept)):
+    several = CAMERA.at(**AT | {"depth_mm": [1000, np.inf]}).psf(pixels=8).to_xarray()
+    for number, data in enumerate((psf.to_xarray(), several)):
         data.to_netcdf(tmp_path / f"{number}.nc", engine="scipy")
         with xarray.open_dataset(tmp_path / f"{number}.nc", engine="scipy") as again:
             assert (again.attrs["lens"], again.attrs["f_number"]) == ("tessar", pytest.approx(6.7))
 
 
-def test_a_sweep_says_what_its_points_share_and_each_point_the_rest():
+def test_points_say_what_they_share_and_each_point_the_rest():
     pytest.importorskip("xarray")
     camera = p2sf.Camera("tessar", focus_mm=1500)
-    sweep = camera.sweep(f_number=[5.6, 8], field_deg=[0, 9], wavelength_nm=546)
-    data = sweep.to_xarray(pixels=8, pixel_um=2.0)
+    points = camera.at(f_number=[5.6, 8], field_deg=[0, 9], wavelength_nm=546)
+    data = points.psf(pixels=8, pixel_um=2.0).to_xarray()
     shared = {"focus_mm": 1500.0, "depth_mm": 1500.0, "wavelength_nm": 546.0}
     assert {name: data.attrs[name] for name in shared} == pytest.approx(shared, rel=1e-12)
     assert data.attrs["lens"] == "tessar" and not {"f_number", "field_deg", "stop_semi_diameter_mm"} & set(data.attrs)
-    one = p2sf.Camera("tessar", focus_mm=1500, f_number=8).psf(field_deg=9, wavelength_nm=546, pixels=8, pixel_um=2.0)
+    one = (
+        p2sf.Camera("tessar", focus_mm=1500, f_number=8).at(field_deg=9, wavelength_nm=546).psf(pixels=8, pixel_um=2.0)
+    )
     there = data.sel(f_number=8, field_deg=9)
     assert (str(there["method"].values), float(there["energy"])) == (one.method, one.energy)
     assert float(there["predicted_error"]) == one.predicted_error
-    table = sweep.mtf([10, 20]).to_dataframe()
+    table = points.mtf([10, 20]).to_dataframe()
     assert table.attrs["lens_sha256_of_toml"] == one.provenance["lens"]["sha256_of_toml"]
 
 

@@ -135,7 +135,7 @@ def depths(name: str) -> tuple[float, ...]:
 
 def frequencies(at: Point) -> np.ndarray:
     """Return two frequencies in cycles per mm, of two digits."""
-    na = float(p2sf.coefficients(at.lens, at.source, focus_mm=at.focus_mm).na)
+    na = float(p2sf.Camera(at.lens, focus_mm=at.focus_mm).at(at.source).coefficients().na)
     return np.array([float(f"{part * 2000 * na / at.source.wavelength_um:.2g}") for part in FREQUENCIES])
 
 
@@ -334,10 +334,10 @@ def written_rows(name: str, parts: tuple[float, ...], ways: tuple[Written, ...] 
 
 def exact_figures(lens: Lens, source: Source) -> dict[tuple[str, str], float]:
     """Return figures of exact rays and sums of waves."""
-    energy = p2sf.encircled_energy(lens, source, "traced")
+    energy = p2sf.Camera(lens).at(source).energy(method="traced")
     return {
         ("spot RMS", "exact rays"): float(spot(lens, source).rms_um),
-        ("OPD RMS", "exact rays"): p2sf.zernike(lens, source).rms,
+        ("OPD RMS", "exact rays"): p2sf.Camera(lens).at(source).zernike().rms,
         ("R80", "traced"): energy.radius_80_um,
         ("Strehl", "huygens"): float(p2sf.render(lens, source, "huygens", **written_window(lens, source)).strehl),
     }

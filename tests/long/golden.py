@@ -332,45 +332,43 @@ def _of_psf(psf: Any) -> dict[str, Any]:
     return {name: getattr(psf, name) for name in ("values", "pixel_um", "strehl", "energy", "predicted_error")}
 
 
-def _mtf(lens: Any, source: Any, method: str, **camera: Any) -> dict[str, Any]:
+def _figure(name: str, lens: Any, source: Any, camera: dict[str, Any], **how: Any) -> Any:
+    """Return a figure of a point, by the function that versions before 0.4 have for it."""
     import p2sf
 
-    found = p2sf.mtf(lens, source, method, frequency_per_mm=FREQUENCIES_PER_MM, **camera)
+    if hasattr(p2sf.Camera, "at"):
+        return getattr(p2sf.Camera(lens, **camera).at(source), name)(**how)
+    former = "encircled_energy" if name == "energy" else name
+    return getattr(p2sf, former)(lens, source, **how, **camera)
+
+
+def _mtf(lens: Any, source: Any, method: str, **camera: Any) -> dict[str, Any]:
+    found = _figure("mtf", lens, source, camera, frequency_per_mm=FREQUENCIES_PER_MM, method=method)
     return {"tangential": found.tangential, "sagittal": found.sagittal}
 
 
 def _energy(lens: Any, source: Any, method: str, **camera: Any) -> dict[str, Any]:
-    import p2sf
-
-    found = p2sf.encircled_energy(lens, source, method, **camera)
+    found = _figure("energy", lens, source, camera, method=method)
     return {name: getattr(found, name) for name in ("radius_50_um", "radius_80_um", "rms_um")}
 
 
 def _spread(lens: Any, source: Any, **camera: Any) -> dict[str, Any]:
-    import p2sf
-
-    found = p2sf.line_spread(lens, source, position_um=np.linspace(-20, 20, 9), **camera)
+    found = _figure("line_spread", lens, source, camera, position_um=np.linspace(-20, 20, 9))
     return {"edge_x": found.edge_x, "edge_y": found.edge_y}
 
 
 def _zernike(lens: Any, source: Any, **camera: Any) -> dict[str, Any]:
-    import p2sf
-
-    fit = p2sf.zernike(lens, source, **camera)
+    fit = _figure("zernike", lens, source, camera)
     return {"terms_waves": fit.waves, "rms_waves": fit.rms, "residual_waves": fit.residual}
 
 
 def _choice(lens: Any, source: Any, **camera: Any) -> dict[str, Any]:
-    import p2sf
-
-    choice = p2sf.choose_method(lens, source, **camera)
+    choice = _figure("choose_method", lens, source, camera)
     return {"method": choice.method, "predicted_error": choice.predicted_error}
 
 
 def _coefficients(lens: Any, source: Any, **camera: Any) -> dict[str, Any]:
-    import p2sf
-
-    return _of_coefficients(p2sf.coefficients(lens, source, **camera))
+    return _of_coefficients(_figure("coefficients", lens, source, camera))
 
 
 def _of_coefficients(six: Any) -> dict[str, Any]:

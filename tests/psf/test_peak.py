@@ -182,7 +182,7 @@ def test_a_preview_takes_the_highest_place_between_samples_not_the_brightest_sam
     assert preview.peak_um[1] == pytest.approx(settled.peak_um[1], abs=0.05)
 
 
-@pytest.mark.parametrize("call", ["look up", "render", "sweep"])
+@pytest.mark.parametrize("call", ["look up", "render", "points"])
 def test_nobody_pays_for_a_peak_that_is_not_read(call, monkeypatch):
     lens = find_lens("achromat_f6")
     database = p2sf.build_database(lens, [3000, 5000], [0, 1], [550, 600])
@@ -190,7 +190,7 @@ def test_nobody_pays_for_a_peak_that_is_not_read(call, monkeypatch):
     calls = {
         "look up": lambda: database.psf(p2sf.Source(4000, field_deg=0.5), 32),
         "render": lambda: p2sf.render(lens, p2sf.Source(field_deg=1), "huygens", pixels=32),
-        "sweep": lambda: p2sf.Camera(lens).sweep(field_deg=[0.0, 1.0]).psfs("traced", pixels=16, pixel_um=2.0),
+        "points": lambda: p2sf.Camera(lens).at(field_deg=[0.0, 1.0]).psf("traced", pixels=16, pixel_um=2.0),
     }
     assert calls[call]() is not None
 

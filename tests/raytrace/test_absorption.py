@@ -186,12 +186,12 @@ def test_energy_and_contrast_are_those_of_the_shaded_pupil():
     radius = np.array([0.4, 0.8, 1.6])
     node, share = np.polynomial.legendre.leggauss(200)
     within = [(share * r / 2 * known.field(at := r * (node + 1) / 2) ** 2 * at).sum() / known.whole for r in radius]
-    assert p2sf.encircled_energy(lens, source, radius_um=radius).fraction == pytest.approx(within, abs=1e-4)
+    assert p2sf.Camera(lens).at(source).energy(radius).fraction == pytest.approx(within, abs=1e-4)
     frequency = np.array([0.1, 0.4, 0.9]) * known.top
     contrast = [known.contrast(one) for one in frequency]
-    found = p2sf.mtf(lens, source, frequency_per_mm=1e3 * frequency)
+    found = p2sf.Camera(lens).at(source).mtf(1e3 * frequency)
     assert found.tangential == pytest.approx(contrast, abs=1e-4) == found.sagittal
-    plain = p2sf.mtf(clear(lens), source, frequency_per_mm=1e3 * frequency)
+    plain = p2sf.Camera(clear(lens)).at(source).mtf(1e3 * frequency)
     assert np.abs(plain.tangential - contrast).max() > 0.01
 
 

@@ -58,7 +58,7 @@ def test_the_wavefront_at_grazing_fields_tends_to_a_limit():
     """
     cosines = np.cos(np.deg2rad([80.0, 89.8, 89.9]))
     wide, near, nearer = (
-        p2sf.zernike(BALL, Source(field_slope=np.sqrt(1 / c**2 - 1), wavelength_um=UM)).rms for c in cosines
+        p2sf.Camera(BALL).at(Source(field_slope=np.sqrt(1 / c**2 - 1), wavelength_um=UM)).zernike().rms for c in cosines
     )
     limit = wide + (nearer - wide) * cosines[0] ** 2 / (cosines[0] ** 2 - cosines[2] ** 2)
     assert near == pytest.approx(limit - (limit - wide) * (cosines[1] / cosines[0]) ** 2, abs=1e-5)

@@ -117,7 +117,7 @@ def library(at: Point, method: str, frequency_per_mm: np.ndarray, pitches_um: tu
 
 def energy(at: Point, method: str) -> Iterator[Shown]:
     try:
-        found = p2sf.encircled_energy(at.lens, at.source, method, focus_mm=at.focus_mm)
+        found = p2sf.Camera(at.lens, focus_mm=at.focus_mm).at(at.source).energy(method=method)
     except P2SFError as error:
         yield Shown("encircled_energy", "R80", method, refused=str(error))
         return
@@ -128,7 +128,7 @@ def energy(at: Point, method: str) -> Iterator[Shown]:
 
 def contrast(at: Point, method: str, frequency_per_mm: np.ndarray) -> Iterator[Shown]:
     try:
-        found = p2sf.mtf(at.lens, at.source, method, frequency_per_mm=frequency_per_mm, focus_mm=at.focus_mm)
+        found = p2sf.Camera(at.lens, focus_mm=at.focus_mm).at(at.source).mtf(frequency_per_mm, method=method)
     except P2SFError as error:
         yield Shown("mtf", "MTF", method, refused=str(error))
         return
@@ -341,7 +341,7 @@ def each_road(at: Point, method: str, frequency_per_mm: np.ndarray, window: Wind
 
 def pitches_um(at: Point) -> tuple[float, float]:
     """Return distances of samples, µm: a fifth and a half of λ/NA."""
-    na = float(p2sf.coefficients(at.lens, at.source, focus_mm=at.focus_mm).na)
+    na = float(p2sf.Camera(at.lens, focus_mm=at.focus_mm).at(at.source).coefficients().na)
     return 0.2 * at.source.wavelength_um / na, 0.5 * at.source.wavelength_um / na
 
 

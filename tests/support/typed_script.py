@@ -22,23 +22,23 @@ def build() -> p2sf.Lens:
 
 def figures(camera: p2sf.Camera) -> dict[str, float]:
     """Return a number of every figure."""
-    lens, source = camera.its_lens, camera.source(3000, field_deg=10.0, wavelength_nm=550)
-    psf: p2sf.Psf = p2sf.render(lens, source, "auto", pixels=32, min_r2=0.99, camera=camera)
-    mtf: p2sf.Mtf = p2sf.mtf(lens, source, frequency_per_mm=[10, 20], camera=camera)
+    point = camera.at(depth_mm=3000, field_deg=10.0, wavelength_nm=550)
+    psf: p2sf.Psf = point.psf("auto", pixels=32, min_r2=0.99)
+    mtf: p2sf.Mtf = point.mtf([10, 20])
     energy: p2sf.Energy = psf.encircled_energy(10.0)
-    lines: p2sf.LineSpread = p2sf.line_spread(lens, source, camera=camera)
-    six: p2sf.Coefficients = p2sf.coefficients(lens, source, camera=camera)
-    fit: p2sf.ZernikeFit = p2sf.zernike(lens, source, "noll", 15, camera=camera)
-    choice: p2sf.Choice = p2sf.choose_method(lens, source, camera=camera)
+    lines: p2sf.LineSpread = point.line_spread()
+    six: p2sf.Coefficients = point.coefficients()
+    fit: p2sf.ZernikeFit = point.zernike("noll", 15)
+    choice: p2sf.Choice = point.choose_method()
     found = {"mtf": mtf.tangential[0], "energy": energy.fraction[0], "edge": lines.edge_x[0], "w40": six.w40}
     return {name: float(value) for name, value in found.items()} | {"rms": fit.rms, "1 - R²": choice.predicted_error}
 
 
-def sweep(camera: p2sf.Camera) -> np.ndarray:
+def over_axes(camera: p2sf.Camera) -> np.ndarray:
     """Return contrasts over field and wavelength."""
-    swept: p2sf.Sweep = camera.sweep(field_deg=np.linspace(0, 14, 3), wavelength_nm=[450, 550], threads=1)
-    contrast: p2sf.NamedArrays = swept.mtf(20, "traced", turn_deg=0.0)
-    found: np.ndarray = contrast["tangential"] + swept.strehl()["strehl"]
+    points = camera.at(field_deg=np.linspace(0, 14, 3), wavelength_nm=[450, 550], threads=1)
+    contrast: p2sf.NamedArrays = points.mtf(20, "traced", turn_deg=0.0)
+    found: np.ndarray = contrast["tangential"] + points.strehl()["strehl"]
     return found
 
 
@@ -67,7 +67,7 @@ def main(folder: Path) -> None:
     study: p2sf.ToleranceStudy = camera.tolerances({"mtf20": 0.5}, builds=100)
     picture: np.ndarray = p2sf.form_image(planned, np.ones((6, 8, 1)), np.full((6, 8), 3000.0))
     try:
-        print(figures(camera), sweep(camera), databases(camera.its_lens, folder), arrays(np.zeros((64, 64))))
+        print(figures(camera), over_axes(camera), databases(camera.its_lens, folder), arrays(np.zeros((64, 64))))
         print(build(), study.yields["all"], picture.shape, p2sf.tradeoff(camera.its_lens, fields_deg=[0.0], pixels=16))
     except p2sf.P2SFError as error:
         print(error.message)

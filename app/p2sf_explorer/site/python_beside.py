@@ -1,10 +1,10 @@
 """What each command is in Python, which the page of the command line shows beside its help."""
 
 PYTHON = {
-    "coefficients": 'p2sf.coefficients(p2sf.load_lens("tessar"), p2sf.Source(field_deg=10))',
-    "psf": 'p2sf.Camera("tessar", f_number=8).psf(field_deg=10).save("psf.npz")',
+    "coefficients": 'p2sf.Camera("tessar").at(field_deg=10).coefficients()',
+    "psf": 'p2sf.Camera("tessar", f_number=8).at(field_deg=10).psf().save("psf.npz")',
     "tolerance": 'p2sf.Camera("achromat_f6").tolerances({"mtf20": 0.5}, builds=500).yields',
-    "zernike": 'p2sf.zernike(p2sf.load_lens("tessar"), p2sf.Source(field_deg=10), "noll", 15)',
+    "zernike": 'p2sf.Camera("tessar").at(field_deg=10).zernike("noll", 15)',
     "tradeoff": 'p2sf.tradeoff(p2sf.load_lens("landscape"), fields_deg=[0], methods=["seidel"], pixels=16)',
     "plan": 'p2sf.plan(p2sf.load_lens("achromat_f6"), p2sf.Scene(p2sf.Sensor(6, 8, 60.0), rtol=0.4))',
     "image": 'p2sf.Camera("achromat_f6", pixel_um=60).photograph(np.ones((6, 8)), rtol=0.4)',

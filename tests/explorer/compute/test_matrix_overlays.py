@@ -36,9 +36,9 @@ def lines(found: CurveOverlay) -> dict[str, np.ndarray]:
     return {str(line.name): line.values for line in found.lines}
 
 
-def own(angle, nm=NM, **more):
-    lens = p2sf.load_lens("cooke_triplet")
-    return p2sf.mtf(lens, p2sf.Source(field_deg=angle, wavelength_nm=nm), f_number=8.0, **more)
+def own(angle, nm=NM, frequency_per_mm=None, spectrum=None, **camera):
+    point = p2sf.Camera("cooke_triplet", f_number=8.0, **camera).at(p2sf.Source(field_deg=angle, wavelength_nm=nm))
+    return point.mtf(frequency_per_mm, spectrum=spectrum)
 
 
 def test_each_field_has_the_contrast_of_the_library():

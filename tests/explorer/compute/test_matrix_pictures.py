@@ -120,10 +120,8 @@ def test_contrast_is_that_of_the_library(obscuration):
     assert matrix(live(change(TRIPLET, matrix_what="mtf"))).found.tiles is None, "it takes longer than a frame"
     for state, tile in each(request, worked(request)[0]):
         setup, x = paraxial_setup(state), tile.content.x
-        angle = state.optics.field_deg
-        alone = p2sf.mtf(
-            setup.lens, p2sf.Source(field_deg=angle, wavelength_nm=state.optics.wavelength_nm), frequency_per_mm=x
-        )
+        source = p2sf.Source(field_deg=state.optics.field_deg, wavelength_nm=state.optics.wavelength_nm)
+        alone = p2sf.Camera(setup.lens).at(source).mtf(x)
         assert tile.content.curves["tangential"] == pytest.approx(alone.tangential, abs=1e-9)
         assert tile.content.curves["sagittal"] == pytest.approx(alone.sagittal, abs=1e-9)
 
@@ -254,7 +252,12 @@ def test_the_radius_of_a_state_is_that_of_profiles_and_library_and_that_of_a_win
     answer = live(state)
     profiles = with_views(answer, {"profiles": view_of(next(e for e in REGISTRY if e.key == "profiles"))}, 0.0)
     setup = paraxial_setup(state)
-    library = p2sf.encircled_energy(setup.lens, setup.source, "seidel" if method == "seidel" else "traced").radius_80_um
+    library = (
+        p2sf.Camera(setup.lens)
+        .at(setup.source)
+        .energy(method="seidel" if method == "seidel" else "traced")
+        .radius_80_um
+    )
     assert settled.template == "R80 {radius} µm" and float(str(settled.values["radius"])) == float(f"{library:.3g}")
     assert profiles.views["profiles"].found.radii_um[1] == pytest.approx(library, rel=1e-3)
     moving = previews(request)[0][0].figure

@@ -55,7 +55,7 @@ def test_the_image_is_that_of_two_refractions(answer):
     """Both sides are sums of some ten terms, each rounded once."""
     expected = image_by_hand_mm(AWAY_MM)
     lens = p2sf.load_lens(FILE)
-    six = p2sf.coefficients(lens)
+    six = p2sf.Camera(lens).at().coefficients()
     assert float(six.image_distance) == pytest.approx(expected, rel=1e-12)
     assert answer("info", FILE)["image_distance"] == pytest.approx(expected, rel=1e-12)
     assert p2sf.Camera(lens).source() == p2sf.Source(AWAY_MM, wavelength_nm=PRIMARY_NM)
@@ -88,7 +88,7 @@ def test_an_object_at_infinity_is_not_sought_where_the_sensor_seems_in_focus():
     """A paraboloid images infinity without error; paths of 400 mm round to 1e-7 of a wavelength."""
     name = str(FOLDER / "parabola_90.seq")
     assert default_state(name).optics.depth_mm == inf
-    assert p2sf.zernike(p2sf.load_lens(name)).rms < 1e-6
+    assert p2sf.Camera(p2sf.load_lens(name)).at().zernike().rms < 1e-6
 
 
 def test_a_file_without_an_object_has_it_in_focus():

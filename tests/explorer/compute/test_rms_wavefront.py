@@ -48,7 +48,7 @@ def test_every_road_has_the_rms_without_tilt(answer):
     state = new_state(**TELEPHOTO)
     rms, tilted = own_sums(state)
     assert tilted > 1.2 * rms
-    shown, library = live(state), p2sf.zernike(p2sf.load_lens("telephoto"), p2sf.Source(field_deg=7))
+    shown, library = live(state), p2sf.Camera(p2sf.load_lens("telephoto")).at(p2sf.Source(field_deg=7)).zernike()
     fit, written = zernike(shown).found.fits["noll"], answer("zernike", "telephoto", "--field-deg", "7")
     roads = {
         "pupil": shown.pupil.rms,

@@ -27,8 +27,8 @@ def cells(panel) -> list[list[str]]:
 def test_it_shows_five_fields_by_itself_and_the_librarys_figures(window, panel):
     state, fields = window.store.state, panel._shown.fields_deg
     assert len(fields) == panel.table.rowCount() == 5
-    sweep = Camera(paraxial_setup(state).lens).sweep(field_deg=fields, wavelength_nm=state.optics.wavelength_nm)
-    found = sweep.performance(panel.table.table.frequency_per_mm)
+    points = Camera(paraxial_setup(state).lens).at(field_deg=fields, wavelength_nm=state.optics.wavelength_nm)
+    found = points.performance(panel.table.table.frequency_per_mm)
     for row, cell in enumerate(cells(panel)):
         assert cell[1:4] == [
             f"{found['rms_waves'][row]:.3f}",

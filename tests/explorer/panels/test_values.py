@@ -13,7 +13,7 @@ from PySide6.QtCore import QPoint, QPointF
 from PySide6.QtWidgets import QApplication
 from scipy.special import j1
 
-from p2sf import encircled_energy, mtf
+import p2sf
 from p2sf.conventions import slope_from_degrees
 from p2sf.disc.quadrature import disc_nodes
 from p2sf.disc.zernike_terms import zernike_terms, zernike_values
@@ -130,13 +130,13 @@ def test_profiles(window, qtbot, setup):
 
 def test_energy_within(window, qtbot, setup):
     for reading in readings(window, qtbot, "profiles", 1):
-        found = encircled_energy(setup.lens, setup.source, "seidel", radius_um=[reading.x], aim="stop")
+        found = p2sf.Camera(setup.lens, aim="stop").at(setup.source).energy([reading.x], method="seidel")
         agree(reading.values[1].text, found.fraction[0], 1e-4)
 
 
 def test_mtf(window, qtbot, setup):
     for reading in readings(window, qtbot, "mtf"):
-        found = mtf(setup.lens, setup.source, "seidel", frequency_per_mm=[reading.x], aim="stop")
+        found = p2sf.Camera(setup.lens, aim="stop").at(setup.source).mtf([reading.x], method="seidel")
         agree(reading.values[1].text, found.sagittal[0], 1e-6)
         agree(reading.values[2].text, found.tangential[0], 1e-6)
 
@@ -322,7 +322,7 @@ def test_overlays(window, qtbot, setup):
         for value in reading.values:
             field, direction = value.name.split("° ")
             source = Source(field_deg=float(field), wavelength_nm=1000 * setup.source.wavelength_um)
-            found = mtf(setup.lens, source, "seidel", frequency_per_mm=[reading.x], aim="stop")
+            found = p2sf.Camera(setup.lens, aim="stop").at(source).mtf([reading.x], method="seidel")
             agree(value.text, getattr(found, direction)[0], 1e-6)
 
 

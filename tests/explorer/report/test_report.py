@@ -34,7 +34,7 @@ def report() -> LensReport:
 
 def expected() -> p2sf.NamedArrays:
     camera = p2sf.Camera("tessar", f_number=5.6)
-    return camera.sweep(field_deg=FIELDS, wavelength_nm=550.0).performance()
+    return camera.at(field_deg=FIELDS, wavelength_nm=550.0).performance()
 
 
 def test_the_figures_are_the_librarys_to_the_last_digit(report):

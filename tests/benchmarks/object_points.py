@@ -1,4 +1,4 @@
-"""A sweep against the same loop over `render`, in CPU time: ``python -m tests.benchmarks.sweep``.
+"""Points over arrays against the same loop over `render`, in CPU time: ``python -m tests.benchmarks.object_points``.
 
 The least of several rounds counts, and rounds alternate, so that another load on the machine slows both. All numbers
 are the same to the last bit.
@@ -27,9 +27,9 @@ def loop(axes: dict[str, np.ndarray]) -> np.ndarray:
     return np.array(found).reshape(*map(len, axes.values()), *found[0].shape)
 
 
-def sweep(axes: dict[str, np.ndarray], threads: int = 1) -> np.ndarray:
-    """Return the PSFs of a sweep."""
-    return CAMERA.sweep(**axes, threads=threads).psfs()["psf"]
+def over_axes(axes: dict[str, np.ndarray]) -> np.ndarray:
+    """Return the PSFs of points over the axes."""
+    return CAMERA.at(**axes, threads=1).psf()["psf"]
 
 
 def seconds(work, axes) -> tuple[float, np.ndarray]:
@@ -44,10 +44,10 @@ def main(axes=AXES, rounds: int = 5) -> float:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         for _ in range(rounds):
-            (slow, expected), (fast, found) = seconds(loop, axes), seconds(sweep, axes)
+            (slow, expected), (fast, found) = seconds(loop, axes), seconds(over_axes, axes)
             best = [min(best[0], slow), min(best[1], fast)]
             assert np.array_equal(found, expected)
-    print(f"loop {best[0]:.3f} s, sweep {best[1]:.3f} s of one core: {best[0] / best[1]:.2f} times as fast")
+    print(f"loop {best[0]:.3f} s, points {best[1]:.3f} s of one core: {best[0] / best[1]:.2f} times as fast")
     return best[0] / best[1]
 
 
