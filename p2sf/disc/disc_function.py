@@ -79,6 +79,19 @@ class DiscFunction:
                 found[..., some] += part
         return found
 
+    def on_grid(self, xi: np.ndarray, eta: np.ndarray) -> np.ndarray:
+        """Return the functions, as `at` has them, at all points of a grid by its columns ξ and rows η.
+
+        (…, channels, rows, columns), by two products.
+        """
+        squares, heights = self._powers_at(xi, eta)
+        found = np.zeros((*self.values.shape[:-1], eta.size, xi.size))
+        for odd, table in self._tables:
+            part = heights.T @ table @ squares
+            part[..., odd, :, :] *= xi
+            found += part
+        return found
+
     def slopes_at(self, xi: np.ndarray, eta: np.ndarray) -> Pair:
         """Return ∂/∂ξ and ∂/∂η at points of the disc, as `at` does the functions."""
         squares, heights = self._powers_at(xi, eta)

@@ -57,6 +57,12 @@ class StarCurve:
         radius: np.ndarray = twice / 2 * value - after + self._terms[0][which]
         return radius
 
+    @property
+    def whole(self) -> bool:
+        """Return whether it is the rim of the disc."""
+        radius = self.radius(self.domain.directions(FEWEST_TERMS))
+        return len(self.arcs) == 1 and max(*map(abs, self.middle), np.abs(radius - 1).max()) <= ROUND
+
     @cached_property
     def _terms(self) -> np.ndarray:
         """Return the series of all arcs without terms that are rounding, (terms, arcs)."""

@@ -12,11 +12,13 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike
 
+from p2sf.disc.domain import ClearNodes
 from p2sf.disc.zernike import jacobi
 from p2sf.errors import RequestError
 
 ZernikeOrder = Literal["noll", "fringe"]
 ORDERS: tuple[ZernikeOrder, ...] = get_args(ZernikeOrder)
+SAME = 1e-9  # of the mean square of a polynomial: what is left of a term that nodes cannot tell from those before it
 MOST_TERMS = {"noll": 231, "fringe": 37}  # Noll's up to degree 20
 LOWEST = {(0, 0): "piston", (1, 1): "tilt", (2, 0): "defocus"}
 FAMILIES = {  # by azimuthal order, then by ascending degree
@@ -123,3 +125,22 @@ def _value(term: ZernikeTerm, s: np.ndarray, harmonic: np.ndarray) -> np.ndarray
     part = harmonic.imag if term.m < 0 else harmonic.real
     value: np.ndarray = term.norm * jacobi((term.n - m) // 2, 0, m, s) * part
     return value
+
+
+def orthonormal_terms(terms: tuple[ZernikeTerm, ...], nodes: ClearNodes) -> np.ndarray:
+    """Return terms made orthonormal in order over nodes, (nodes, terms) (Mahajan & Dai 2007, eq. 11).
+
+    Those that the nodes cannot tell from the terms before them, as of a very thin ring, are 0. Weights may be negative:
+    Gram–Schmidt with these follows a QR decomposition by their sizes, which leaves it well conditioned.
+    """
+    root, sign = np.sqrt(np.abs(nodes.weight)), np.sign(nodes.weight)
+    columns, lengths = np.linalg.qr((zernike_values(terms, nodes.xi, nodes.eta) * root).T)
+    columns *= np.sign(np.diag(lengths))
+    square, mixing = (columns.T * sign) @ columns, np.eye(len(terms))
+    for k in range(len(terms)):
+        earlier = mixing[:, :k]
+        own = mixing[:, k] - earlier @ (earlier.T @ square[:, k])
+        length = float(own @ square @ own)
+        mixing[:, k] = own / np.sqrt(length) if length > SAME else 0.0
+    orthonormal: np.ndarray = columns @ mixing / root[:, None]
+    return orthonormal

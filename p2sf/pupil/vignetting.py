@@ -27,8 +27,8 @@ def clear_part(lens: Lens, source: Source, clip: bool = False, whole: bool = Fal
     """
     if whole and not clip:
         return OpenPart(domain=lens.pupil_domain)
-    shadows = hole_curves(lens, source) if clip else ()
-    return OpenPart(clear_curve(lens, source, clip), shadows, domain=lens.pupil_domain)
+    rim, shadows = clear_curve(lens, source, clip), hole_curves(lens, source) if clip else ()
+    return OpenPart(None if rim.whole else rim, shadows, domain=lens.pupil_domain)
 
 
 @lru_cache(maxsize=16)

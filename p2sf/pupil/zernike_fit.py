@@ -5,28 +5,25 @@ polynomials orthogonalised there by Gram–Schmidt (Mahajan & Dai 2007); over a 
 Mahajan 1981. The mean squares then add up to the variance of the wavefront for any shape of the pupil.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import ceil
 
 import numpy as np
 
 from p2sf.disc.domain import ClearNodes
 from p2sf.disc.mask import PupilMask
-from p2sf.disc.open_part import WHOLE_DISC, OpenPart
 from p2sf.disc.tilt import rms
-from p2sf.disc.zernike_terms import ZernikeOrder, ZernikeTerm, zernike_terms, zernike_values
+from p2sf.disc.zernike_terms import ZernikeOrder, ZernikeTerm, orthonormal_terms, zernike_terms
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.pupil.clear_curves import holes_of
 from p2sf.pupil.seen_mask import mask_seen
-from p2sf.pupil.vignetting import clear_nodes, open_part, pupil_nodes
-from p2sf.raytrace.pencil import displayed_opd, pencil
+from p2sf.pupil.smooth_pupil import all_reach
+from p2sf.pupil.vignetting import pupil_nodes
+from p2sf.raytrace.pencil import displayed_opd
 from p2sf.threads import one_blas_thread
 
 COUNTS = 24, 64  # radii and directions: exact for terms up to degree 20 and a wavefront of degree 40
 USUAL_TERMS = 37
-LINES_PER_RADIUS = 4  # between corners and ends of edges
-RIM_RAYS = 65  # on the right half of the rim, which is clipped first
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,19 +75,14 @@ def zernike_fit(
 def pupil_opd(
     lens: Lens, source: Source, clip: bool = False, counts: tuple[int, int] = COUNTS
 ) -> tuple[ClearNodes, np.ndarray]:
-    """Return nodes over the clear part of the pupil and the displayed OPD there, waves, (nodes,).
+    """Return nodes over the open part of the pupil and the displayed OPD there, waves, (nodes,).
 
-    The nodes are those of `Lens.pupil_domain`.
+    The nodes are those of `Lens.pupil_domain`. Raises GeometryError where nothing is open.
     """
-    nodes, mask = open_nodes(lens, source, counts), mask_seen(lens, source)
-    turn = np.linspace(0, np.pi, RIM_RAYS)
-    rim = lens.pupil_domain.points(np.sin(turn), np.cos(turn))
-    tried = np.append(nodes.xi, rim[0]), np.append(nodes.eta, rim[1])
-    if not pencil(lens, source, *tried, clip).passed.all():
-        if mask.edged or (clip and holes_of(lens)):
-            nodes = open_nodes(lens, source, counts, open_part(lens, source, clip))
-        else:
-            nodes = clear_nodes(lens, source, counts, clip)
+    mask, (radial, angular) = mask_seen(lens, source), counts
+    if mask.disc.centred:
+        radial = ceil((radial - 4) / (1 - mask.obscuration)) + 4  # as many in the ring as in the disc
+    nodes = pupil_nodes(lens, source, (radial, angular), clip, all_reach(lens, source))
     return nodes, displayed_opd(lens, source, nodes.xi, nodes.eta) - path_waves(mask, source, nodes)
 
 
@@ -101,32 +93,17 @@ def path_waves(mask: PupilMask, source: Source, nodes: ClearNodes) -> np.ndarray
     return waves
 
 
-def open_nodes(lens: Lens, source: Source, counts: tuple[int, int], edges: OpenPart = WHOLE_DISC) -> ClearNodes:
-    """Return nodes of positive weights over what the mask in the stop and the ``edges`` of the clear part leave open.
-
-    Raises GeometryError where that is nothing.
-    """
-    mask = mask_seen(lens, source)
-    if edges is WHOLE_DISC and mask.disc.centred and not (mask.iris or mask.spider):
-        radial = ceil((counts[0] - 4) / (1 - mask.obscuration)) + 4  # as many in the ring as in the disc
-        return pupil_nodes(lens, source, (radial, counts[1]))
-    behind = replace(edges, mask=mask, domain=lens.pupil_domain.behind(mask.domain))
-    return behind.line_nodes(LINES_PER_RADIUS * counts[0], 2 * counts[0])
-
-
 def decompose(nodes: ClearNodes, waves: np.ndarray, basis: ZernikeOrder, terms: tuple[ZernikeTerm, ...]) -> ZernikeFit:
     """Return the terms of a wavefront at nodes, (nodes,) waves; nodes of the half disc mean one that is even in ξ.
 
-    Terms that are odd in ξ are then zero. The others are orthogonalised in order by a QR decomposition of the terms at
-    the weighted nodes (Mahajan & Dai 2007, eq. 11); over the whole disc that changes nothing.
+    Terms that are odd in ξ are then zero. The others are orthogonalised in order over the nodes, as `orthonormal_terms`
+    does; over the whole disc that changes nothing.
     """
     there = [number for number, term in enumerate(terms) if term.odd in nodes.domain.parities(False)]
-    root = np.sqrt(nodes.weight)
-    columns, lengths = np.linalg.qr((zernike_values(tuple(terms[k] for k in there), nodes.xi, nodes.eta) * root).T)
-    columns *= np.sign(np.diag(lengths))
+    columns = orthonormal_terms(tuple(terms[k] for k in there), nodes)
     found = np.zeros(len(terms))
-    found[there] = columns.T @ (root * waves)
-    rest = root * waves - columns @ found[there]
+    found[there] = columns.T @ (nodes.weight * waves)
+    rest = waves - columns @ found[there]
     blur = rms(waves, nodes.weight, nodes.axes)
     still = np.array([term.n < 2 for term in terms])  # piston and tilt
     scale = np.array([term.norm if basis == "fringe" else 1.0 for term in terms])
@@ -138,7 +115,7 @@ def decompose(nodes: ClearNodes, waves: np.ndarray, basis: ZernikeOrder, terms: 
         share=np.where(still, 0.0, found**2) / (blur**2 or 1.0),
         rms=blur,
         rms_with_tilt=rms(waves, nodes.weight),
-        residual=float(np.linalg.norm(rest)),
+        residual=float(np.sqrt(max(float(nodes.weight @ rest**2), 0.0))),  # of weights that may be negative
         clear=nodes.share,
         rays=nodes.xi.size,
     )

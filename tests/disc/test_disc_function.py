@@ -51,6 +51,13 @@ def test_and_at_any_point_of_either_side(domain, functions):
     np.testing.assert_allclose(found, [function(xi, eta) for function in functions], atol=3e-14)
 
 
+@pytest.mark.parametrize(("domain", "functions"), CASES)
+def test_and_on_a_grid_of_them(domain, functions):
+    xi, eta = np.linspace(-0.7, 0.6, 5), np.linspace(-0.5, 0.7, 4)
+    expected = [function(*np.meshgrid(xi, eta)) for function in functions]
+    np.testing.assert_allclose(of(domain, *functions).on_grid(xi, eta), expected, atol=3e-14)
+
+
 def test_many_points_are_taken_in_blocks(monkeypatch):
     xi, eta = np.random.default_rng(4).uniform(-0.7, 0.7, (2, 25))
     whole = of(WHOLE, neither, odd).at(xi, eta)

@@ -49,7 +49,7 @@ HOLD_A_PHASE = set(
     """
     Coefficients DesignedPupil Differentials ExactDatabase FittedDatabase FittedPencil FrequencyPupil NodeGrid OpenRays
     Parts PointFit PointPupil Pupil PupilMap PupilNodes PupilSamples PupilStack PupilTable Rays
-    WavefrontMap WavefrontSamples Waves ZernikeFit _Pupil
+    WavefrontMap Waves ZernikeFit _Pupil
     """.split()
 )
 PHASE_FIELDS = {"phase", "waves", "wavefront", "opd", "opd_waves", "path"}

@@ -12,7 +12,7 @@ from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.pupil.seen_mask import mask_seen
-from p2sf.pupil.wavefront_map import map_of, samples_of_rays
+from p2sf.pupil.wavefront_map import map_of, wavefront_of_rays
 from p2sf.raytrace.pencil import displayed_opd, pencil, pupil_grid
 from tests.support.waves import rms_about_plane
 
@@ -26,7 +26,8 @@ def test_what_a_surface_shadows_counts_nowhere(off, mask):
     first, *others = lens.surfaces
     lens = with_mask(replace(lens, surfaces=(replace(first, inner_radius=0.3 * first.semi_diameter), *others)), mask)
     lens = displaced(lens, 3, 4, Placement(0.02, 0.05, 0.0, 0.05, 0.02)) if off else lens
-    found = map_of(lens, POINT, samples_of_rays(lens, POINT, "settled", clip=True), "settled")
+    waves, clear = wavefront_of_rays(lens, POINT, "settled", clip=True)
+    found = map_of(lens, POINT, waves, "settled", clear)
     xi, eta, inside = pupil_grid(300)
     inside = inside & mask.opens(xi, eta)
     xi, eta = xi[inside], eta[inside]
@@ -51,7 +52,8 @@ def test_what_a_surface_shadows_counts_nowhere(off, mask):
 def test_little_that_is_open_has_an_rms_as_well(name, field_deg, mask, clip, quality):
     """To 3 %: by the edges of the grid, and of a preview, whose nodes are few."""
     lens, source = with_mask(find_lens(name), PupilMask(**mask)), Source(field_deg=field_deg)
-    found = map_of(lens, source, samples_of_rays(lens, source, quality, clip), quality)
+    waves, clear = wavefront_of_rays(lens, source, quality, clip)
+    found = map_of(lens, source, waves, quality, clear)
     xi, eta, inside = pupil_grid(400)
     inside = inside & mask_seen(lens, source).opens(xi, eta)
     xi, eta = xi[inside], eta[inside]

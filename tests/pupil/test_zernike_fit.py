@@ -13,7 +13,7 @@ from p2sf.lens.placement import Placement
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.pupil.vignetting import whole_nodes
-from p2sf.pupil.zernike_fit import decompose, open_nodes, pupil_opd, zernike_fit
+from p2sf.pupil.zernike_fit import decompose, pupil_opd, zernike_fit
 from p2sf.raytrace.pencil import displayed_opd, hexapolar, opd_map, pencil, pupil_grid
 from tests.support.waves import rms_about_plane
 
@@ -173,7 +173,7 @@ def moment(dark: float, power: int) -> float:
 
 def ring(dark: float):
     """Return nodes over a ring, as a lens with an obscuration has them."""
-    return open_nodes(with_mask(find_lens("telephoto"), PupilMask(obscuration=dark)), Source(), (24, 64))
+    return pupil_opd(with_mask(find_lens("telephoto"), PupilMask(obscuration=dark)), Source())[0]
 
 
 @pytest.mark.parametrize("dark", [0.1, 0.36, 0.9])
@@ -253,6 +253,34 @@ def test_any_mask_and_rims_leave_the_wavefront_of_a_dense_grid(mask, off, clip):
     left = waves - table @ np.linalg.lstsq(table, waves)[0]
     assert found.residual == pytest.approx(np.sqrt(np.mean(left**2)), rel=0.03, abs=1e-6)
     assert found.rms_with_tilt**2 == pytest.approx(sum(found.rms_waves[1:] ** 2) + found.residual**2, rel=1e-9)
+
+
+@pytest.mark.parametrize("blades", [5, 6])
+def test_behind_blades_the_mean_of_a_defocus_is_that_of_a_polygon(blades):
+    """(2 + cos 2π/n)/6 of a regular polygon within the unit circle, by its second moment."""
+    nodes, _ = pupil_opd(with_mask(find_lens("telephoto"), PupilMask(blades=blades)), Source())
+    found = decompose(nodes, nodes.xi**2 + nodes.eta**2, "noll", zernike_terms("noll", 37))
+    assert found.waves[0] == pytest.approx((2 + np.cos(2 * np.pi / blades)) / 6, rel=1e-12)
+    assert np.abs(found.waves[4:]).max() < 1e-9 and found.residual < 1e-7  # roots of sums that are 0 to rounding
+
+
+@pytest.mark.parametrize("clip", [False, True])
+def test_terms_behind_rims_and_a_disc_beside_the_middle_have_converged(clip):
+    """Twice as many radii and directions change nothing."""
+    mask = PupilMask(obscuration=0.2, obscuration_x=0.3, obscuration_y=0.6)
+    lens, source, terms = with_mask(find_lens("cooke_triplet"), mask), Source(field_deg=17), zernike_terms("noll", 66)
+    usual, fine = (decompose(*pupil_opd(lens, source, clip, n), "noll", terms) for n in ((24, 64), (48, 128)))
+    assert usual.waves == pytest.approx(fine.waves, abs=1e-9)
+
+
+@pytest.mark.parametrize("dark", [0.7, 0.9])
+def test_terms_that_a_thin_ring_cannot_tell_apart_are_none(dark):
+    """Squares add up all the same: what they leave is the residual."""
+    mask = PupilMask(obscuration=dark, obscuration_x=0.05)
+    nodes, waves = pupil_opd(with_mask(find_lens("telephoto"), mask), Source(field_deg=3))
+    found = decompose(nodes, waves, "noll", zernike_terms("noll", 231))
+    squares = (found.rms_waves[1:] ** 2).sum() + found.residual**2
+    assert squares == pytest.approx(found.rms_with_tilt**2, rel=1e-3) and found.residual < 0.1 * found.rms
 
 
 def test_a_hole_of_a_mirror_has_no_part_in_the_terms():

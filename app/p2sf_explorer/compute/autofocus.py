@@ -3,15 +3,13 @@
 import numpy as np
 
 from p2sf.disc.domain import ClearNodes
-from p2sf.disc.mask_nodes import mask_nodes
 from p2sf.disc.tilt import without_tilt
 from p2sf.errors import GeometryError
 from p2sf.paraxial.balance import depth_of_focus_um
 from p2sf.paraxial.wavefront import wavefront
-from p2sf.pupil.clear_curves import CLIPPED, LOST
-from p2sf.pupil.seen_mask import mask_seen
-from p2sf.pupil.wavefront_map import samples_of_rays
-from p2sf.raytrace.pencil import displayed_opd, pencil
+from p2sf.pupil.smooth_pupil import all_reach
+from p2sf.pupil.vignetting import pupil_nodes
+from p2sf.raytrace.pencil import displayed_opd
 from p2sf_explorer.compute.setup import ParaxialSetup, everywhere_by_coefficients, paraxial_setup
 from p2sf_explorer.state.state import State, change
 from p2sf_explorer.state.what_if import check_focusable
@@ -54,15 +52,7 @@ def amount(nodes: ClearNodes, waves: np.ndarray, shape: np.ndarray) -> float:
 def open_nodes(setup: ParaxialSetup, exact: bool, clip: bool) -> ClearNodes:
     """Return nodes over the part of the pupil that passes light; the six coefficients know no rims."""
     lens, source = setup.lens, setup.source
-    if exact and lens.mask.clear:
-        return samples_of_rays(lens, source, "settled", clip).nodes
-    nodes = lens.pupil_domain.over(mask_nodes(mask_seen(lens, source), *RAYS))
-    if not exact:
-        return nodes
-    passed = pencil(lens, source, nodes.xi, nodes.eta, clip=clip).passed
-    if not passed.any():
-        raise GeometryError(CLIPPED if clip else LOST, parameter="clip")
-    return nodes.part(passed)
+    return pupil_nodes(lens, source, RAYS, exact and clip, not exact or all_reach(lens, source))
 
 
 def _waves(state: State, shift_um: float, nodes: ClearNodes, by_coefficients: bool) -> np.ndarray:

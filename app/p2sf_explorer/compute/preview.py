@@ -7,6 +7,8 @@ from time import perf_counter
 import numpy as np
 
 from p2sf.conventions import UM_PER_MM
+from p2sf.disc.basis import Terms
+from p2sf.disc.disc_function import DiscFunction
 from p2sf.disc.domain import ClearNodes
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
@@ -18,12 +20,13 @@ from p2sf.pupil.clear_curves import CLIPPED
 from p2sf.pupil.fit import FittedPencil, Level, fit, fit_rays, level_rays, levels, levels_for
 from p2sf.pupil.plane_waves import Counts, disc_words, window_reach_um
 from p2sf.pupil.seen_mask import mask_seen, with_slopes
-from p2sf.pupil.wavefront_map import MapTerms, WavefrontMap, map_of_terms
+from p2sf.pupil.wavefront_map import ORDERS, RAYS, WavefrontMap, map_of
 from p2sf.raytrace.pencil import Rays, exit_radius, opd_on_sphere, pencil
 from p2sf_explorer.compute.setup import ParaxialSetup
 
 CLOSE, NEAR, FAR = 0.005, 0.02, 0.1  # RMS error in waves up to which 26 numbers do, 64 rays do, a fit does at all
 TRIED = 2  # levels of fits to the first rays
+MAP = "preview"  # the quality of the pupil map
 EDGE = 16  # rays along the rim and along 0.7 of it, which show how far light reaches on the sensor
 
 
@@ -143,14 +146,13 @@ def preview_pupil(traced: Preview) -> WavefrontMap:
     setup = traced.setup
     waves = opd_on_sphere(traced.rays, exit_radius(setup.lens, setup.source, traced.rays, setup.stop))
     level = first_level(setup.lens)
-    return map_of_terms(setup.lens, setup.source, _map_terms(level), _projection(level) @ waves)
+    function = DiscFunction((_through(level) @ waves)[None], RAYS[MAP], (False,), level.basis.domain)
+    return map_of(setup.lens, setup.source, function, MAP)
 
 
 @lru_cache(maxsize=2)
-def _projection(level: Level) -> np.ndarray:
-    """Return the least-squares inverse from the rays' waves to the terms of the pupil map, (terms, rays)."""
-    return np.linalg.pinv(_map_terms(level).at(*points(level)).T)
-
-
-def _map_terms(level: Level) -> MapTerms:
-    return MapTerms("preview", level.basis.domain)
+def _through(level: Level) -> np.ndarray:
+    """Return the matrix from the rays' waves to those at nodes over the disc, by least squares, (nodes, rays)."""
+    domain = level.basis.domain
+    terms, nodes = Terms(ORDERS[MAP], domain.parities(False)), domain.nodes(RAYS[MAP])
+    return terms.values(nodes.xi, nodes.eta).T @ np.linalg.pinv(terms.values(*points(level)).T)

@@ -3,7 +3,7 @@
 from p2sf.messages import Message, Number
 from p2sf.paraxial.balance import best_focus_um, focus_causes
 from p2sf.paraxial.seidel import Coefficients
-from p2sf.pupil.wavefront_map import WavefrontMap, map_of, samples_of_coefficients, samples_of_rays
+from p2sf.pupil.wavefront_map import WavefrontMap, map_of, wavefront_of_coefficients, wavefront_of_rays
 from p2sf_explorer.compute.setup import ParaxialSetup
 from p2sf_explorer.state.scales import significant
 
@@ -17,9 +17,13 @@ def pupil_of(setup: ParaxialSetup, exact: bool, quality: str, clip: bool = False
     The six coefficients know no rims. Raises GeometryError where no ray reaches the sensor.
     """
     if exact:
-        return map_of(setup.lens, setup.source, samples_of_rays(setup.lens, setup.source, quality, clip), quality)
-    kind = "what-if" if setup.altered else "six coefficients"
-    return map_of(setup.lens, setup.source, samples_of_coefficients(setup.coefficients, quality), quality, kind)
+        waves, clear = wavefront_of_rays(setup.lens, setup.source, quality, clip)
+        return map_of(setup.lens, setup.source, waves, quality, clear)
+    kind, waves = (
+        "what-if" if setup.altered else "six coefficients",
+        wavefront_of_coefficients(setup.coefficients, quality),
+    )
+    return map_of(setup.lens, setup.source, waves, quality, kind=kind)
 
 
 def dominant(pupil: WavefrontMap, coefficients: Coefficients) -> Message:

@@ -8,7 +8,7 @@ import pytest
 from p2sf.messages import Message
 from p2sf.paraxial.balance import strongest, variance_parts
 from p2sf.paraxial.wavefront import wavefront
-from p2sf.pupil.wavefront_map import WavefrontMap, disc, map_of, samples_of_coefficients
+from p2sf.pupil.wavefront_map import WavefrontMap, disc, map_of, wavefront_of_coefficients
 from p2sf.raytrace.pencil import displayed_opd, pencil, pupil_grid
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.pupil import dominant, pupil_of
@@ -182,7 +182,7 @@ def test_astigmatism_alone_is_said_to_be_a_third_defocus(sign):
     """W22·η² is W22/2·ρ² and W22/2·(η² − ξ²): variances W22²/48 and W22²/24 (Mahajan 1991, table 2-1)."""
     setup = live(new_state(method="seidel")).setup
     alone = replace(ZERO, w22=float(sign))
-    waves = map_of(setup.lens, setup.source, samples_of_coefficients(alone, "settled"), "settled", "six coefficients")
+    waves = map_of(setup.lens, setup.source, wavefront_of_coefficients(alone, "settled"), "settled")
     values = dominant(waves, alone).values
     assert str(values["term"]) == "astigmatism" and values["percent"] == pytest.approx(200 / 3, abs=0.5)
     assert str(values["other"]) == "defocus by W22" and values["more"] == pytest.approx(100 / 3, abs=0.5)

@@ -4,13 +4,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from p2sf.disc.domain import ClearNodes
 from p2sf.disc.zernike_terms import ORDERS, ZernikeOrder, zernike_terms
 from p2sf.messages import Message, Number
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.pupil.seen_mask import mask_seen
-from p2sf.pupil.wavefront_map import WavefrontSamples, samples_of_coefficients, samples_of_rays
-from p2sf.pupil.zernike_fit import COUNTS, USUAL_TERMS, ZernikeFit, decompose, open_nodes, path_waves, pupil_opd
+from p2sf.pupil.vignetting import pupil_nodes
+from p2sf.pupil.wavefront_map import RAYS
+from p2sf.pupil.zernike_fit import USUAL_TERMS, ZernikeFit, decompose, path_waves, pupil_opd
 from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.views.first_order import NONE, Row
 from p2sf_explorer.state.scales import with_sign
@@ -26,31 +26,15 @@ class ZernikeView:
 
 def zernike(live: Live) -> View[ZernikeView]:
     """Return the terms of the wavefront over the part of the pupil that passes light (handbook 3.4)."""
-    exact = live.pupil.kind == "exact rays"
-    if live.setup.lens.mask.clear:
-        samples = _samples(live, exact)
-        nodes, waves = samples.nodes, samples.waves
+    lens, source, counts = live.setup.lens, live.setup.source, RAYS[live.quality]
+    if live.pupil.kind == "exact rays":
+        nodes, waves = pupil_opd(lens, source, live.state.optics.clip, counts)
     else:
-        nodes, waves = _behind_mask(live, exact)
+        nodes = pupil_nodes(lens, source, counts)
+        waves = np.asarray(wavefront(live.setup.coefficients, nodes.xi, nodes.eta))
+        waves -= path_waves(mask_seen(lens, source), source, nodes)
     fits = {order: decompose(nodes, waves, order, zernike_terms(order, USUAL_TERMS)) for order in ORDERS}
     return View(ZernikeView(fits, live.pupil.kind))
-
-
-def _samples(live: Live, exact: bool) -> WavefrontSamples:
-    setup = live.setup
-    if exact:
-        return samples_of_rays(setup.lens, setup.source, live.quality, live.state.optics.clip)
-    return samples_of_coefficients(setup.coefficients, live.quality)
-
-
-def _behind_mask(live: Live, exact: bool) -> tuple[ClearNodes, np.ndarray]:
-    """Return nodes over what is open behind the mask, and the wavefront there, waves."""
-    lens, source = live.setup.lens, live.setup.source
-    if exact:
-        return pupil_opd(lens, source, live.state.optics.clip)
-    nodes = open_nodes(lens, source, COUNTS)
-    waves = np.asarray(wavefront(live.setup.coefficients, nodes.xi, nodes.eta))
-    return nodes, waves - path_waves(mask_seen(lens, source), source, nodes)
 
 
 def rows(fit: ZernikeFit) -> tuple[Row, ...]:
