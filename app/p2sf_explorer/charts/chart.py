@@ -7,6 +7,7 @@ twenty times faster than an outline that it must fill.
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from math import hypot
 from typing import Any, Protocol
 
 import numpy as np
@@ -16,7 +17,7 @@ from PySide6.QtGui import QAccessible, QColor, QFocusEvent, QImage, QPainter, QP
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from p2sf_explorer.charts.axes import TickMaker, area_of, lock_places, paint_axes, paint_home, paint_lock
-from p2sf_explorer.charts.crosshair import paint_box, paint_crosshair, paint_marks, paint_pin, place_box
+from p2sf_explorer.charts.crosshair import paint_box, paint_crosshair, paint_expected, paint_marks, paint_pin, place_box
 from p2sf_explorer.charts.hand import Hand
 from p2sf_explorer.charts.painting import MARKS, paint_line_marks, pen, polylines
 from p2sf_explorer.charts.reading import Reading, Samples, curves_at, map_at, place_at, vertex_at
@@ -136,6 +137,7 @@ class Chart(QWidget):
         self.bar: Lockable | None = None  # of the image's colours
         self.ground: int | None = None  # 0xffRRGGBB beyond the image
         self.pins: tuple[Pin, ...] = ()
+        self.expects = ""  # "ring" or "level", which the last marker then stands for
         self._scale: tuple[float, float, float, float] | None = None
         self._area: tuple[tuple[int, int], QRectF] | None = None  # by the size that it is of
         self._background: QPixmap | None = None
@@ -275,6 +277,19 @@ class Chart(QWidget):
     def unpin_all(self) -> bool:
         """Remove all markers; return whether there were any."""
         return self._keep_pins(())
+
+    def expect(self, form: str) -> None:
+        """Let the next marker stand for what is expected: a "ring" about the origin, a "level", or nothing."""
+        self.expects = form
+        self.unpin_all()
+
+    @property
+    def expected(self) -> float | None:
+        """Return the radius or the height that was marked, None without a marker."""
+        if not (self.expects and self.pins):
+            return None
+        pin = self.pins[-1]
+        return hypot(pin.x, pin.y) if self.expects == "ring" else pin.y
 
     def _keep_pins(self, pins: tuple[Pin, ...]) -> bool:
         changed, self.pins = pins != self.pins, pins
@@ -477,6 +492,10 @@ class Chart(QWidget):
         if not self.pins and not self.hand.at:
             return
         boxes = [self._square(*self.kept_clear)] if self.kept_clear else []
+        if self.expects and self.pins:
+            painter.setClipRect(self.area)
+            paint_expected(painter, self, (self.pins[-1].x, self.pins[-1].y))
+            painter.setClipping(False)
         for number, (_, read) in enumerate(self.pinned(), 1):
             reading = replace(read, head=f"{number}  {read.head}")
             if self.area.contains(self._pixel(reading.place)):

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 from dataclasses import replace
-from math import isfinite
+from math import hypot, isfinite
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPointF, QRectF, QSizeF, Qt
@@ -119,6 +119,19 @@ def paint_box(painter: QPainter, chart: "Chart", reading: Reading, box: QRectF, 
         if name:
             painter.setPen(QColor(theme.text))
             write(painter, row, text, 1, theme.label)
+
+
+def paint_expected(painter: QPainter, chart: "Chart", at: tuple[float, float]) -> None:
+    """Paint what a person expects, through a pinned marker: a ring about the origin, or a level line."""
+    area, (x, y), (x0, y0) = chart.area, chart.to_pixels(*at), chart.to_pixels(0.0, 0.0)
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    for colour, width, line in ((DARK, 3.0, Qt.PenStyle.SolidLine), (BRIGHT, 1.6, Qt.PenStyle.DashLine)):
+        painter.setPen(QPen(QColor(colour), width * chart.theme.scale, line))
+        if chart.expects == "ring":
+            radius = hypot(x - x0, y - y0)
+            painter.drawEllipse(QPointF(x0, y0), radius, radius)
+        else:
+            painter.drawLine(QPointF(area.left(), y), QPointF(area.right(), y))
 
 
 def paint_pin(painter: QPainter, chart: "Chart", at: tuple[float, float]) -> None:

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QLabel, QSplitter, QWidget
 
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
+from p2sf_explorer.charts.chart import Chart
 from p2sf_explorer.charts.theme import SPACE, Tokens
 from p2sf_explorer.files import recent
 from p2sf_explorer.i18n.language import current_language
@@ -64,11 +65,12 @@ class SliderColumn(Protocol):
 class LessonRoom:
     """The parts of the window that a lesson uses.
 
-    The page of the lesson stands in the ``column`` above the ``sliders``.
+    The page of the lesson stands in the ``column`` above the ``sliders``; what is expected is marked on the ``stage``.
     """
 
     column: QSplitter
     sliders: SliderColumn
+    stage: QWidget
 
 
 class LessonController(QObject):
@@ -85,7 +87,8 @@ class LessonController(QObject):
         super().__init__(window)
         self._find_lectures = find_lectures
         self._lectures: dict[str, Lesson] | None = None
-        self.desk = TaskDesk(store, progress_path, self)
+        self._expected_for = "", 0
+        self.desk = TaskDesk(store, progress_path, self._marked, self)
         self.store, self._window, self._room, self._theme = store, window, room, theme
         self.list: LessonList | None = None
         self.maker: LessonMaker | None = None
@@ -273,10 +276,11 @@ class LessonController(QObject):
         """Show the page of the state's lesson and point to the slider it is about; hide it where there is none."""
         shelf = self.shelf(state.lesson.name) if state.lesson.name else {}
         lesson = shelf.get(state.lesson.name)
-        slider = ""
+        slider = form = ""
         if lesson:
             number = min(int(state.lesson.step), len(lesson.steps) - 1)
-            slider = lesson.steps[number].move
+            step = lesson.steps[number]
+            slider, form = step.move, step.task.mark.form if step.task and step.task.mark else ""
             self.panel = self.panel or self._new_panel()
             self._list(shelf)
             self._show_step(lesson, number, state.lesson.told)
@@ -284,6 +288,7 @@ class LessonController(QObject):
         if self.panel:
             self.panel.setVisible(lesson is not None)
         self._point(slider)
+        self._expect((state.lesson.name, state.lesson.step), form)
         if self.presenting and (state.lesson.name, state.lesson.step) != self._shared_for:
             self._shared_for = state.lesson.name, state.lesson.step
             QTimer.singleShot(0, self._share)
@@ -303,6 +308,23 @@ class LessonController(QObject):
         frame = StepFrame(told and may_ask, may_ask, self._end(lesson.name), tuple(blocks))
         self.panel.show_step(lesson, number, frame)
         self.desk.show(lesson, number)
+
+    def _expect(self, place: tuple[str, int], form: str) -> None:
+        """Let a click on the stage mark what the task of a step wants to be predicted, once the step is on show."""
+        if place != self._expected_for:
+            self._expected_for = place
+            QTimer.singleShot(0, lambda: self._expect_on_stage(form))
+
+    def _expect_on_stage(self, form: str) -> None:
+        for chart in self._room.stage.findChildren(Chart):
+            if form or chart.expects:
+                chart.expect(form)
+
+    def _marked(self) -> float | None:
+        """Return what was marked on the stage."""
+        return next(
+            (found for chart in self._room.stage.findChildren(Chart) if (found := chart.expected) is not None), None
+        )
 
     def _list(self, shelf: "dict[str, Lesson]") -> None:
         """Offer the lessons of a shelf in the page's list."""

@@ -123,13 +123,15 @@ class Hall(QObject):
         """Show a phase of the question; with the right option, the state that was to be predicted."""
         from p2sf_explorer.lessons.changes import apply_changes
 
+        lesson = self._lesson()
         if phase is Phase.FIRST:
             self.votes = Votes()
         elif phase is Phase.SECOND:
             self.votes = replace(self.votes, again=True)
-        self.card.show_phase(step, phase, self.votes)
+        marked = self._teaching.desk.mark_words(lesson, self._step[1]) if lesson and phase not in ASKED else ""
+        self.card.show_phase(step, phase, self.votes, marked)
         self._free_keys()
-        lesson, answers = self._lesson(), [one for one in phases(step) if one not in ASKED]
+        answers = [one for one in phases(step) if one not in ASKED]
         if lesson and step.task and step.task.see and phase is answers[0]:
             self._store.replace(apply_changes(lesson.state(self._step[1], self._store.state), step.task.see))
 

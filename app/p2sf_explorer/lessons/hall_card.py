@@ -119,7 +119,7 @@ class HallCard(QFrame):
         self._column.addLayout(head)
         for part in (self.body, self.because, self.count):
             self._column.addWidget(part)
-        self.phase, self._votes = Phase.FIRST, Votes()
+        self.phase, self._votes, self._marked = Phase.FIRST, Votes(), ""
         self._step: Step | None = None
         stage.installEventFilter(self)
         self.hide()
@@ -130,12 +130,15 @@ class HallCard(QFrame):
         step = self._step if self.isVisible() and self.phase in ASKED else None
         return len(options_of(step, False)) if step else 0
 
-    def show_phase(self, step: "Step", phase: Phase, votes: Votes) -> None:
-        """Show a step's question for a vote and start the countdown, or the right option, or the answer."""
+    def show_phase(self, step: "Step", phase: Phase, votes: Votes, marked: str = "") -> None:
+        """Show a step's question for a vote and start the countdown, or the right option, or the answer.
+
+        ``marked`` says what was marked on the picture beside what is true.
+        """
         if phase is Phase.FIRST:
             self.because.clear()
         self.because.clearFocus()
-        self.phase, self._step = phase, step
+        self.phase, self._step, self._marked = phase, step, marked
         if phase in ASKED:
             self.countdown.begin()
         else:
@@ -165,6 +168,7 @@ class HallCard(QFrame):
         step, asked = self._step, self.phase in ASKED
         options = options_of(step, not asked)
         parts = options if asked else [*options, *votes_of(step, self._votes)]
+        parts += [f"<p>{self._marked}</p>"] if self._marked else []
         if self.phase is Phase.TOLD:
             parts.append(rich(local(step.answer)))
         self.question.setText(unbroken(local(step.question)))

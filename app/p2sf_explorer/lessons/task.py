@@ -296,16 +296,32 @@ def _numbers(text: str, most: tuple[int, ...], remedy: str) -> tuple[int, ...]:
 
 
 @dataclass(frozen=True)
+class Mark:
+    """What is marked on the picture before an answer, a "ring" about the chief ray or a "level", and what it is."""
+
+    form: str
+    measure: Claim
+
+    def words(self, marked: float, state: State) -> Message:
+        """Return what was marked beside what the measure is in a state; P2SFError where it cannot be measured."""
+        unit = unit_of(self.measure.measure)
+        given, truth = (Number(written_value(value, unit)) for value in (marked, measure_claim(self.measure, state)))
+        return Message("You marked {marked}; it is {truth}.", marked=given, truth=truth)
+
+
+@dataclass(frozen=True)
 class Exercise:
     """A task: its name, which is unique in a course and stays the same in all languages, and what it asks for.
 
-    ``hints`` are shown one at a time; ``see`` are the changes that show what a first answer had predicted.
+    ``hints`` are shown one at a time; ``see`` are the changes that show what a first answer had predicted,
+    and ``mark`` is what the prediction marks on the picture.
     """
 
     name: str
     answer: Answer
     hints: tuple[str, ...] = ()
     see: Changes = ()
+    mark: Mark | None = None
 
     def judge(self, text: str, set_up: State, now: State) -> Judgement:
         """Judge an answer given at the state ``now``; P2SFError for one that cannot be read."""

@@ -23,12 +23,18 @@ LONGEST_S = 1800.0  # that counts between two answers: who goes away for lunch d
 
 
 class TaskDesk(QObject):
-    """``answered``: a record has changed. The file at ``path()`` holds the records; undo does not touch them."""
+    """``answered``: a record has changed. The file at ``path()`` holds the records; undo does not touch them.
+
+    ``marked()`` is what was marked on the picture, None for nothing.
+    """
 
     answered = Signal()
 
-    def __init__(self, store: Store, path: Callable[[], Path], parent: QObject) -> None:
+    def __init__(
+        self, store: Store, path: Callable[[], Path], marked: Callable[[], float | None], parent: QObject
+    ) -> None:
         super().__init__(parent)
+        self._marked = marked
         self._store, self._path = store, path
         self._panel: TaskPanel | None = None
         self._lesson: Lesson | None = None
@@ -106,10 +112,22 @@ class TaskDesk(QObject):
         if lesson.silent:
             self._panel.show_noted()
         else:
-            self._panel.show_verdict(judgement)
+            self._panel.show_verdict(judgement, self.mark_words(lesson, self._number))
             if task.see and record.attempts == 1:
                 self._store.replace(apply_changes(set_up, task.see))
         self.answered.emit()
+
+    def mark_words(self, lesson: "Lesson", number: int) -> str:
+        """Return what was marked on the picture of a step beside what is true, "" where nothing was."""
+        from p2sf_explorer.lessons.changes import apply_changes
+
+        task, marked = lesson.steps[number].task, self._marked()
+        if not (task and task.mark and marked is not None):
+            return ""
+        try:
+            return said(task.mark.words(marked, apply_changes(lesson.state(number), task.see)))
+        except P2SFError as error:
+            return said(error)
 
     def give_hint(self) -> None:
         """Show one more hint of the task on show."""

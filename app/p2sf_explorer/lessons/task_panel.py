@@ -12,6 +12,11 @@ from p2sf_explorer.lessons.offer import tool
 from p2sf_explorer.lessons.task import ChoiceAnswer, Exercise, GoalAnswer, Judgement
 from p2sf_explorer.lessons.task_record import LONGEST, TaskRecord
 
+TO_MARK = {
+    "ring": "First click on the picture where you expect the ring to pass.",
+    "level": "First click on the picture at the height that you expect.",
+}
+
 
 @dataclass(frozen=True)
 class TaskView:
@@ -50,6 +55,9 @@ class TaskPanel(QFrame):
             label.setObjectName("task")
             label.setTextFormat(Qt.TextFormat.PlainText)
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.to_mark = QLabel(self)
+        self.to_mark.setObjectName("muted")
+        self.to_mark.setWordWrap(True)
         self.because = QLineEdit(self)
         self.because.setPlaceholderText(tr("Because …"))
         self.because.setAccessibleName(tr("Because"))
@@ -70,7 +78,7 @@ class TaskPanel(QFrame):
         below.addStretch(1)
         self._column = QVBoxLayout(self)
         self._column.setContentsMargins(0, 0, 0, 0)
-        for part in (self.field, self.verdict, self.because, self.hints):
+        for part in (self.to_mark, self.field, self.verdict, self.because, self.hints):
             self._column.addWidget(part)
         self._column.addLayout(row)
         self._column.addLayout(below)
@@ -90,6 +98,8 @@ class TaskPanel(QFrame):
             self.field.deleteLater()
             self.field = field
             self.show_verdict(None)
+            self.to_mark.setText(tr(TO_MARK[task.mark.form]) if task.mark else "")
+            self.to_mark.setVisible(task.mark is not None)
             self.because.setText(record.because)
             if record.answers:
                 field.show_answer(record.answers[-1])
@@ -114,13 +124,13 @@ class TaskPanel(QFrame):
         self.hint.setText(tr("Hint {number} of {count}", number=min(count + 1, len(hints)), count=len(hints)))
         self.hint.setVisible(count < len(hints) and not view.closed and view.remaining is None)
 
-    def show_verdict(self, judgement: Judgement | None) -> None:
-        """Show what is said of the answer just given, None for nothing."""
+    def show_verdict(self, judgement: Judgement | None, marked: str = "") -> None:
+        """Show what is said of the answer just given, None for nothing, and of what was marked on the picture."""
         if judgement is None:
             self._say("")
             return
         words = f"{'✓' if judgement.right else '✗'} {said(judgement.words)}"
-        self._say(f"{words} {local(judgement.hint)}".strip())
+        self._say(" ".join(filter(None, (words, local(judgement.hint), marked))))
 
     def show_noted(self) -> None:
         """Say only that the answer is noted."""

@@ -11,6 +11,7 @@ from p2sf_explorer.lessons.task import (
     ChoiceAnswer,
     Exercise,
     GoalAnswer,
+    Mark,
     NumericAnswer,
     NumericPart,
     OrderAnswer,
@@ -19,7 +20,7 @@ from p2sf_explorer.lessons.task import (
 from p2sf_explorer.lessons.typed_numbers import F_NUMBER, is_unit, unit_of, units_like
 
 KINDS = ("answer", "choose", "order", "goal")
-TASK = ("task", *KINDS, "solve", "see", "wrong", "hint", "because")
+TASK = ("task", *KINDS, "solve", "see", "wrong", "hint", "because", "mark")
 TASK_WORDS = ("task", "answer", "choose", "order", "wrong", "hint", "because")
 BELONGS = {"wrong": ("answer", "order", "goal"), "solve": ("goal",), "because": ("choose",)}  # and to no other kind
 NAME = re.compile(r"[a-z0-9][a-z0-9_-]*")
@@ -29,6 +30,7 @@ NUMERIC = re.compile(
     rf"\s*+±\s*+(?P<tolerance>{AMOUNT})\s*+(?P<percent>%(?=\s*\S)|%$)?\s*+(?P<unit>\S*)"
 )
 NUMERIC_EXAMPLE = "answer: 6.7 ± 0.2 µm"
+MARKS = ("ring", "level")
 HINT, BETWEEN, PICKED = "::", "|", "*"
 OUTSIDE_BRACKETS = re.compile(r",(?![^\[]*\])")
 
@@ -54,7 +56,7 @@ def parse_task(found: Mapping[str, Lines], where: str) -> Exercise | None:
             raise fault(where, found[extra][0][0], '"{name}:" does not go with "{kind}:"', name=extra, kind=kinds[0])
     answer = READERS[kinds[0]](found, where)
     hints = tuple(text for _, text in found["hint"])
-    return Exercise(name, answer, hints, _see(found, where))
+    return Exercise(name, answer, hints, _see(found, where), _mark(found, where))
 
 
 def parse_words(found: Mapping[str, Lines]) -> tuple[str, TaskWords]:
@@ -77,6 +79,16 @@ def _see(found: Mapping[str, Lines], where: str) -> Changes:
     return tuple(
         change for number, text in found["see"] for change in read_changes(text.removeprefix("set:"), number, where)
     )
+
+
+def _mark(found: Mapping[str, Lines], where: str) -> Mark | None:
+    if not found["mark"]:
+        return None
+    number, text = found["mark"][0]
+    form, _, measure = text.partition(" ")
+    if form not in MARKS:
+        raise fault(where, number, '"{form}" cannot be marked; mark one of {names}', form=form, names=MARKS)
+    return Mark(form, _from_line(measure, number, where, parse_measure))
 
 
 def _with_hint(text: str) -> tuple[str, str]:

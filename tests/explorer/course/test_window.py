@@ -4,7 +4,7 @@ import html
 import os
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPointF, Qt
 from PySide6.QtWidgets import QFileDialog, QInputDialog
 
 from p2sf_explorer.course.lectures import AFTER, BEFORE, course_version
@@ -16,8 +16,24 @@ from p2sf_explorer.lessons.controller import progress_path
 from p2sf_explorer.lessons.task import ChoiceAnswer, Exercise
 from p2sf_explorer.lessons.task_record import CourseResult, TaskRecord, read_result, write_result
 from tests.explorer.course.test_tasks import LESSON, STEP
+from tests.support.windows.windows import at_rest
 
 NAME = "lecture_1"
+MARKED = """---
+title: A mark
+about: One question.
+lens: achromat_f6
+state: field_deg 0
+---
+## One
+set: held_scales psf 18
+task: mark-it
+choose: *wide | narrow :: No.
+mark: FORM MEASURE
+see: f_number 12
+ask: How wide?
+tell: Wide.
+"""
 
 
 @pytest.fixture
@@ -119,6 +135,35 @@ def test_answer_reason_and_how_sure_are_chosen_one_below_the_other(qtbot):
     qtbot.addWidget(again)
     again.show_answer("1 2 4")
     assert again.text() == "1 2 4"
+
+
+@pytest.mark.parametrize(("form", "measure", "truth"), [("ring", "airy_radius_um", "8.60"), ("level", "rms_waves", "")])
+def test_what_is_expected_is_marked_on_the_picture_and_told_beside_what_is(
+    window, qtbot, teaching, tmp_path, form, measure, truth
+):
+    """A click 6 µm above the chief ray and 8 µm beside it is a ring of 10 µm, or a level of 6 µm."""
+    text = MARKED.replace("FORM", form).replace("MEASURE", measure)
+    (tmp_path / "course" / "lecture_2.md").write_text(text, encoding="utf-8")
+    teaching._go("lecture_2", 0)
+    at_rest(window, qtbot)
+    chart, panel = window.panels["psf"].map.chart, teaching.panel.task
+    assert panel.to_mark.isVisible() and chart.expects == form and chart.expected is None
+    before = chart.grab().toImage()
+    at = QPointF(*(float(part) for part in chart.to_pixels(8.0, 6.0)))
+    qtbot.mouseClick(chart, Qt.MouseButton.LeftButton, pos=at.toPoint())
+    assert chart.expected == pytest.approx({"ring": 10.0, "level": 6.0}[form], abs=3 * chart.per_pixel())
+    row = round(at.y()) if form == "level" else round(float(chart.to_pixels(0.0, 10.0)[1]))
+    column = round(float(chart.to_pixels(0.0 if form == "ring" else -10.0, 0.0)[0]))
+    after = chart.grab().toImage()
+    strip = [(column + k, row + j) for k in range(-8, 9) for j in (-2, -1, 0, 1, 2)]
+    assert any(after.pixelColor(*at) != before.pixelColor(*at) for at in strip), "it is painted there"
+    panel.field.show_answer("1")
+    panel.check.click()
+    assert "You marked" in panel.verdict.text() and truth in panel.verdict.text()
+    assert chart.expected is not None, "it stays beside what is seen"
+    teaching._go(NAME, 0)
+    qtbot.waitUntil(lambda: not chart.expects)
+    assert not chart.pins
 
 
 def test_items_are_moved_into_order_by_buttons(teaching, at):

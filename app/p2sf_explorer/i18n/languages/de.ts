@@ -112,6 +112,10 @@
 <message><source>Not yet: the answer is right, and its reason is not.</source><translation>Noch nicht: Die Antwort stimmt, ihr Grund nicht.</translation></message>
 <message><source>Gain in each item of the concept check</source><translation>Gewinn bei jeder Frage der Verständnisprüfung</translation></message>
 <message><source>Gain</source><translation>Gewinn</translation></message>
+<message><source>You marked {marked}; it is {truth}.</source><translation>Markiert haben Sie {marked}; es sind {truth}.</translation></message>
+<message><source>First click on the picture where you expect the ring to pass.</source><translation>Klicken Sie zuerst im Bild dorthin, wo Sie den Ring erwarten.</translation></message>
+<message><source>First click on the picture at the height that you expect.</source><translation>Klicken Sie zuerst im Bild auf die Höhe, die Sie erwarten.</translation></message>
+<message><source>"{form}" cannot be marked; mark one of {names}</source><translation>„{form}“ lässt sich nicht markieren; markieren Sie eines von {names}</translation></message>
 <message><source>Item</source><translation>Frage</translation></message>
 <message><source>Students</source><translation>Personen</translation></message>
 <message><source>Right before</source><translation>Vorher richtig</translation></message>
