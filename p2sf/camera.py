@@ -140,8 +140,8 @@ class Camera(CameraData):
         Returns
         -------
         ObjectPoints
-            With `psf`, `mtf`, `energy`, `line_spread`, `strehl`, `coefficients`, `zernike`, `rays`, `performance` and
-            `choose_method`: plain results of one point, `NamedArrays` over several.
+            With `psf`, `mtf`, `energy`, `line_spread`, `strehl`, `first_order`, `coefficients`, `zernike`, `rays`,
+            `performance` and `choose_method`: plain results of one point, `NamedArrays` over several.
 
         Raises
         ------

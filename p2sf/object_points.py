@@ -30,6 +30,7 @@ from p2sf.threads import for_each, one_blas_thread, using_threads
 if TYPE_CHECKING:
     from p2sf.disc.zernike_terms import ZernikeOrder
     from p2sf.figures.measures import Energy, LineSpread, Mtf
+    from p2sf.paraxial.first_order_data import FirstOrder
     from p2sf.paraxial.seidel import Coefficients
     from p2sf.performance import Performance
     from p2sf.psf.choosing import Choice
@@ -439,6 +440,30 @@ class ObjectPoints(Generic[Count]):
             warnings.warn(str(aligned), P2SFWarning, stacklevel=4)
         place = setup.source.depth_mm, setup.source.field_slope, setup.source.wavelength_um
         return seidel.coefficients(setup.lens, *place, setup.stop)
+
+    @figure(
+        "focal_length_mm back_focal_from_last_mm front_focal_from_first_mm front_principal_from_first_mm "
+        "rear_principal_from_last_mm front_nodal_from_first_mm rear_nodal_from_last_mm stop_surface "
+        "stop_semi_diameter_mm entrance_pupil_from_first_mm entrance_pupil_diameter_mm exit_pupil_from_last_mm "
+        "exit_pupil_diameter_mm numerical_aperture f_number image_from_last_mm magnification"
+    )
+    def first_order(self) -> "FirstOrder":
+        """Return focal length, focal, principal and nodal points, stop, pupils, aperture, image and magnification.
+
+        See `p2sf.paraxial.first_order_data.FirstOrder`, which states signs. Raises RequestError, GeometryError and
+        GlassError as `p2sf.render` does.
+
+        Examples
+        --------
+        >>> import p2sf
+        >>> found = p2sf.Camera("double_gauss_28").at(wavelength_nm=550).first_order()
+        >>> round(found.focal_length_mm, 2), round(found.entrance_pupil_diameter_mm, 2)
+        (99.98, 33.37)
+        """
+        from p2sf.paraxial.first_order_data import first_order
+
+        setup = self.setup
+        return first_order(setup.lens, setup.source.depth_mm, setup.source.wavelength_um, setup.stop)
 
     @figure("waves rms_waves share rms marechal residual", _terms)
     def zernike(self, basis: "ZernikeOrder" = "noll", terms: int = 37, *, clip: bool = False) -> "ZernikeFit":

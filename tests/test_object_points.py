@@ -79,6 +79,20 @@ def test_wavefronts_are_those_of_a_loop():
     assert_same(POINTS.choose_method(0.9), names, loop(ObjectPoints.choose_method, *names, min_r2=0.9))
 
 
+def test_first_order_data_are_those_of_rays_traced_by_hand():
+    """A ball of index 1.5: f = nR/(2(n − 1)), principal points in its middle; at 2f before that 1:1."""
+    ball = p2sf.Lens([p2sf.Surface(10.0, 20.0, 1.5), p2sf.Surface(-10.0, 5.0)], 15.0, 1)
+    points = Camera(ball).at(depth_mm=[20.0, inf], wavelength_nm=550)
+    found, one = points.first_order(), points.points[0].first_order()
+    np.testing.assert_allclose(found["focal_length_mm"], 15, rtol=1e-14)
+    np.testing.assert_allclose(found["rear_principal_from_last_mm"], -10, rtol=1e-14)
+    np.testing.assert_allclose(found["front_principal_from_first_mm"], 10, rtol=1e-14)
+    np.testing.assert_allclose(found["magnification"], [-1, 0], atol=1e-14)
+    np.testing.assert_allclose(found["image_from_last_mm"], [20, 5], rtol=1e-13)
+    assert one.focal_length_mm == found["focal_length_mm"][0] and one.entrance_pupil_diameter_mm == pytest.approx(1)
+    assert one.stop_surface == 1 and one.in_x is None and one.abcd[2] == pytest.approx(-1 / 15)
+
+
 def test_angles_along_x_are_those_of_a_source():
     found = CAMERA.at(field_x_deg=[0.0, 3.0], field_deg=4.0, wavelength_nm=550).mtf(20)
     one = p2sf.Camera(CAMERA.lens, focus_mm=3000).at(p2sf.Source(3000, field_deg=(3, 4), wavelength_nm=550)).mtf(20)

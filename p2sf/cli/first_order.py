@@ -1,6 +1,5 @@
 """`p2sf info` and `p2sf coefficients`: first-order data, wavefront coefficients and Seidel sums of a lens."""
 
-from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -8,13 +7,11 @@ import numpy as np
 from p2sf.cli.cautions import open_lens
 from p2sf.cli.options import AS_IN_THE_FILE, Asked, Json, LensName
 from p2sf.cli.screen import Row, heading, print_json, print_table, warn
-from p2sf.lens.lens import Lens
-from p2sf.lens.meridians import meridians
 from p2sf.lens.misalignment import misalignments
 from p2sf.lensfile.library import find_lens
-from p2sf.paraxial.first_order import abcd, cardinal_points, image_distance, magnification
+from p2sf.paraxial.first_order_data import FirstOrder, first_order
 from p2sf.paraxial.lens_checks import lens_checks
-from p2sf.paraxial.pupils import f_number, numerical_aperture, paraxial_rays, pupils
+from p2sf.paraxial.pupils import paraxial_rays
 from p2sf.paraxial.seidel import Coefficients, coefficients, of_aligned_lens, seidel_sums
 from p2sf.setting import Setup, set_up
 
@@ -51,7 +48,7 @@ SUMS = ("surface", "S_I spherical", "S_II coma", "S_III astigm.", "S_IV Petzval"
 def info(lens: LensName, /, *, request: Asked = AS_IN_THE_FILE, as_json: Json = False) -> None:
     """Show the ABCD matrix, focal, principal and nodal points, stop, pupils and image of a lens."""
     setup = set_up(find_lens(lens), request)
-    facts = first_order(setup)
+    facts = first_order_record(setup)
     if as_json:
         return print_json(facts)
     aligned = of_aligned_lens(setup.lens), *misalignments(setup.lens)
@@ -73,34 +70,39 @@ def info(lens: LensName, /, *, request: Asked = AS_IN_THE_FILE, as_json: Json = 
 _ABCD = ("", "mm", "1/mm", "")
 
 
-def first_order(setup: Setup) -> dict[str, Any]:
+def first_order_record(setup: Setup) -> dict[str, Any]:
     """Return the first-order data of a setup; distances in mm, positive to the right of the vertex in their name.
 
     Of cylinders, toroids and biconics those in yz, and "in_x" those in xz.
     """
-    along_y, along_x = meridians(setup.lens)
-    facts = {
-        **_paraxial(along_y, setup),
-        **({"misalignment": [str(words) for words in moved]} if (moved := misalignments(setup.lens)) else {}),
-    }
-    return facts if along_x == along_y else {**facts, "in_x": _paraxial(along_x, setup)}
+    found = first_order(setup.lens, setup.source.depth_mm, setup.source.wavelength_um, setup.stop)
+    moved = [str(words) for words in misalignments(setup.lens)]
+    across = {} if found.in_x is None else {"in_x": _record(found.in_x)}
+    return _record(found) | ({"misalignment": moved} if moved else {}) | across
 
 
-def _paraxial(lens: Lens, setup: Setup) -> dict[str, Any]:
-    """Return what paraxial rays say of a lens, or of one meridian of it, behind the stop of a setup."""
-    depth, wavelength = setup.source.depth_mm, setup.source.wavelength_um
-    ends = pupils(lens, wavelength, setup.stop)
+def _record(found: FirstOrder) -> dict[str, Any]:
+    """Return first-order data as JSON names them."""
     return {
-        "abcd": abcd(lens, wavelength).ravel().tolist(),
-        **{name: float(value) for name, value in asdict(cardinal_points(lens, wavelength)).items()},
-        "stop_surface": int(setup.stop.surface),
-        "stop_semi_diameter": float(setup.stop.semi_diameter),
-        "entrance_pupil": {"from_first": float(ends.entrance_from_first), "diameter": float(ends.entrance_diameter)},
-        "exit_pupil": {"from_last": float(ends.exit_from_last), "diameter": float(ends.exit_diameter)},
-        "numerical_aperture": float(numerical_aperture(lens, depth, wavelength, setup.stop)),
-        "f_number": float(f_number(lens, wavelength, setup.stop)),
-        "image_distance": float(image_distance(lens, depth, wavelength)),
-        "magnification": float(magnification(lens, depth, wavelength)),
+        "abcd": list(found.abcd),
+        "effective_focal_length": found.focal_length_mm,
+        "back_focal_distance": found.back_focal_from_last_mm,
+        "front_focal_distance": found.front_focal_from_first_mm,
+        "front_principal_from_first": found.front_principal_from_first_mm,
+        "rear_principal_from_last": found.rear_principal_from_last_mm,
+        "front_nodal_from_first": found.front_nodal_from_first_mm,
+        "rear_nodal_from_last": found.rear_nodal_from_last_mm,
+        "stop_surface": found.stop_surface,
+        "stop_semi_diameter": found.stop_semi_diameter_mm,
+        "entrance_pupil": {
+            "from_first": found.entrance_pupil_from_first_mm,
+            "diameter": found.entrance_pupil_diameter_mm,
+        },
+        "exit_pupil": {"from_last": found.exit_pupil_from_last_mm, "diameter": found.exit_pupil_diameter_mm},
+        "numerical_aperture": found.numerical_aperture,
+        "f_number": found.f_number,
+        "image_distance": found.image_from_last_mm,
+        "magnification": found.magnification,
     }
 
 
