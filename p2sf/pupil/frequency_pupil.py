@@ -78,6 +78,7 @@ ORDERS = (
     RayCounts(32, 28, 48),
     RayCounts(44, 40, 70),
 )
+FINER = 2  # times as many radii and directions where rays are lost: those that graze a surface spread twentyfold
 STOP_ORDERS = 4  # more over the stop, which the same rays carry
 MOST_KEPT_ORDER = 28  # of the polynomials over the stop that are kept: 10 MB
 EXACT = RayCounts(4, 6, 10)  # the six coefficients are a polynomial of fourth order
@@ -382,11 +383,12 @@ class PupilAtRims(PupilEnd):
 
     def __init__(self, lens: Lens, source: Source, clip: bool):
         self.domain, self.edges = lens.pupil_domain, open_part(lens, source, clip)
-        self._rim = clear_curve(lens, source, clip)
+        self._rim, self._finer = clear_curve(lens, source, clip), 1 if all_reach(lens, source) else FINER
 
     def columns(self, counts: tuple[int, int], domain: PupilDomain) -> tuple[np.ndarray, int]:
         """Return the same of the clear part without its holes."""
-        return _with_edge(self._rim.nodes(counts), self._rim.points(OUTLINE // 8, domain), domain)
+        finer = self._finer * counts[0], self._finer * counts[1]
+        return _with_edge(self._rim.nodes(finer), self._rim.points(OUTLINE // 8, domain), domain)
 
     def disc(self, counts: tuple[int, int]) -> None:
         """Return that these are not over the whole disc."""
@@ -536,7 +538,8 @@ def _settle(nodes_of: Callable[[RayCounts], PupilSamples], orders: tuple[RayCoun
             nodes, counts = nodes_of(sampling), sampling.counts
             traced += nodes.traced
         found = _through(nodes, sampling.order)
-        hopeless = sampling.order >= JUDGED_AT and min(before, found.residual_waves) > HOPELESS
+        judged = sampling.order >= JUDGED_AT + (nodes.disc is None)  # beside lost rays one order later
+        hopeless = judged and min(before, found.residual_waves) > HOPELESS
         if hopeless or found.residual_waves < RESIDUAL_WAVES:
             break
         before = found.residual_waves
@@ -563,8 +566,8 @@ def _through(nodes: PupilSamples, order: int) -> FrequencyPupil:
     least = LeastSquares(order, x, y, share, nodes.domain)
     phase = least.solve(nodes.phase)
     miss = least.values(phase) - nodes.phase
-    area = _over_stop(nodes, order + STOP_ORDERS).area(x, y)
-    true = nodes.weight / np.abs(area)
+    area = _stop_area(nodes, least, x, y)
+    true = nodes.weight * np.abs(area)
     density = least.solve(true)
     light = share * nodes.weight
     landing_x, landing_y = (-slope / size for slope, size in zip(least.slopes(phase), half, strict=True))
@@ -591,6 +594,18 @@ def _through(nodes: PupilSamples, order: int) -> FrequencyPupil:
     )
 
 
+def _stop_area(nodes: PupilSamples, over_frequency: "LeastSquares", x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Return ∂(ξ, η)/∂(x, y) at nodes by polynomials of x and y over the stop, or of ξ and η over the box.
+
+    Those that pass closer to the rays: where rays crowd, as near a fold, the former are smooth and the latter like a
+    root; next to rays that are lost since they graze a surface it is the other way round.
+    """
+    over_stop = _over_stop(nodes, over_frequency.order + STOP_ORDERS)
+    if over_frequency.miss(nodes.xi, nodes.eta) < over_stop.miss(x, y):
+        return over_frequency.area(nodes.xi, nodes.eta)
+    return 1 / over_stop.area(x, y)
+
+
 class LeastSquares:
     """Polynomials T_a(x)·T_b(y), a + b ≤ order, through values at points of the box, by one QR.
 
@@ -598,7 +613,7 @@ class LeastSquares:
     """
 
     def __init__(self, order: int, x: np.ndarray, y: np.ndarray, share: np.ndarray, domain: PupilDomain):
-        self._x, self._order, self._domain = x, order, domain
+        self._x, self.order, self._domain, self._share = x, order, domain, share / share.sum()
         every = range(0, order + 1, len(domain.images))
         self._at = np.array([(b, a) for a in every for b in range(order + 1 - a)]).T
         self._across, self._along = chebvander(x, order + 1), chebvander(y, order + 1)
@@ -610,7 +625,7 @@ class LeastSquares:
 
     def solve(self, values: np.ndarray) -> np.ndarray:
         """Return the coefficients, (order + 1, order + 1) for (b, a), of what x = 0 mirrors alike."""
-        table = np.zeros((self._order + 1, self._order + 1))
+        table = np.zeros((self.order + 1, self.order + 1))
         table[tuple(self._at)] = np.linalg.solve(self._upper, self._factor.T @ (values * self._root)[self._used])
         return table
 
@@ -634,6 +649,11 @@ class LeastSquares:
         rows, columns = table.shape
         found: np.ndarray = np.einsum("na,na->n", self._along[:, :rows] @ table, self._across[:, :columns])
         return found
+
+    def miss(self, across: np.ndarray, along: np.ndarray) -> float:
+        """Return the RMS error, corrected for the degrees of freedom, of two functions as `area` has them."""
+        off = self.values(self.solve_across(across)) - across, self.values(self.solve(along)) - along
+        return float(np.sqrt(self._share @ (off[0] ** 2 + off[1] ** 2) / self.freedom))
 
     def area(self, across: np.ndarray, along: np.ndarray) -> np.ndarray:
         """Return ∂(across, along)/∂(x, y) at the points, of two functions of them, as `solve_across` and `solve`."""
