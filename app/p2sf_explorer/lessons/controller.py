@@ -35,6 +35,7 @@ PAGE_LINES = 29  # of text: a page that is higher leaves the sliders more, up to
 
 Finder = Callable[[str], "tuple[dict[str, Lesson], tuple[P2SFError, ...]]"]
 """What finds lessons in a language: by name, and the errors of files that are none."""
+OPEN = "First answer the question of this page."  # in place of what blurs most, which may be the answer
 NO_LESSON = Message("There is no lesson under way; begin one, or press Test my lesson where you make one")
 NOTHING_BEFORE = Message("The window began with this lesson, so there is nothing to restore; its lens stays")
 UNTRANSLATED = Message("This lesson has not been translated; here is the original")
@@ -66,11 +67,13 @@ class LessonRoom:
     """The parts of the window that a lesson uses.
 
     The page of the lesson stands in the ``column`` above the ``sliders``; what is expected is marked on the ``stage``.
+    ``tell`` says something under the stage in place of what blurs most, "" for nothing.
     """
 
     column: QSplitter
     sliders: SliderColumn
     stage: QWidget
+    tell: Callable[[str], None]
 
 
 class LessonController(QObject):
@@ -87,7 +90,7 @@ class LessonController(QObject):
         super().__init__(window)
         self._find_lectures = find_lectures
         self._lectures: dict[str, Lesson] | None = None
-        self._expected_for = "", 0
+        self._expected_for, self._told = ("", 0), ""
         self.desk = TaskDesk(store, progress_path, self._marked, self)
         self.store, self._window, self._room, self._theme = store, window, room, theme
         self.list: LessonList | None = None
@@ -285,6 +288,8 @@ class LessonController(QObject):
             self._list(shelf)
             self._show_step(lesson, number, state.lesson.told)
             self._tell_untranslated(lesson)
+        else:
+            self._tell("")
         if self.panel:
             self.panel.setVisible(lesson is not None)
         self._point(slider)
@@ -295,6 +300,7 @@ class LessonController(QObject):
 
     def _show_step(self, lesson: "Lesson", number: int, told: bool) -> None:
         from p2sf_explorer.lessons.lesson_panel import StepFrame
+        from p2sf_explorer.lessons.task import GoalAnswer
 
         if self.panel is None:
             return
@@ -302,6 +308,8 @@ class LessonController(QObject):
         if told:
             self.desk.note_told(lesson, number)
         view = self.desk.view(lesson, task) if task else None
+        by_hand = task is not None and isinstance(task.answer, GoalAnswer)
+        self._tell(tr(OPEN) if view and not view.closed and not by_hand else "")
         may_ask = view is None or (not view.silent and (view.remaining is None or view.closed))
         lessons = self.lessons()
         blocks = ((name, lessons[name].title) for name in lesson.lessons if name in lessons) if number == 0 else ()
@@ -325,6 +333,12 @@ class LessonController(QObject):
         return next(
             (found for chart in self._room.stage.findChildren(Chart) if (found := chart.expected) is not None), None
         )
+
+    def _tell(self, words: str) -> None:
+        """Say something under the stage, where that is news."""
+        if words != self._told:
+            self._told = words
+            self._room.tell(words)
 
     def _list(self, shelf: "dict[str, Lesson]") -> None:
         """Offer the lessons of a shelf in the page's list."""

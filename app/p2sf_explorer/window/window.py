@@ -146,7 +146,7 @@ class MainWindow(QMainWindow):
         self.memory_trim, self.sharing = MemoryTrim(self), Sharing(self.store, self)
         self.drop_frame = DropFrame(self)
         self.file_watcher = FileWatcher(self.store, self._read_again, self)
-        self.lesson_room = LessonRoom(self.left_parts, self.controls, self.room.stage)
+        self.lesson_room = LessonRoom(self.left_parts, self.controls, self.room.stage, self.foot.tell)
         self.teaching = LessonController(self.store, self, self.lesson_room, lambda: self._theme, _lectures)
         self.hall = Hall(self.teaching, self.room.stage, self)
         self.course = Course(self.store, self.teaching, lambda: self._theme, self)

@@ -86,7 +86,8 @@ def test_an_untouched_page_is_not_told_that_a_slider_was_moved():
 
 
 def test_there_are_six_lectures_of_three_tasks():
-    lectures = [lesson for lesson in LECTURES if lesson.name not in CHECKS]
+    others = (*CHECKS, "unknown_stars")
+    lectures = [lesson for lesson in LECTURES if lesson.name not in others]
     assert [lesson.name for lesson in lectures] == [f"lecture_{k}" for k in range(1, 7)]
     for lesson in lectures:
         named = [step.task for step in lesson.steps if step.task and step.title.startswith("Task ")]
@@ -108,6 +109,16 @@ def test_both_forms_of_the_check_have_twelve_items_of_every_lecture_that_are_not
         assert step.note == other.note and step.text != other.text
         assert first.reasons == second.reasons and len(first.reasons) == 3 and first.why == second.why
         assert not any(first.hints) and second.right == first.right == 0 and all(second.hints[1:])
+
+
+def test_ten_stars_are_unknown_and_of_some_one_picture_leaves_a_sign_open():
+    lesson = find_lectures()[0]["unknown_stars"]
+    tasks = tasks_of(lesson)
+    assert len(tasks) == len(lesson.steps) == 10
+    right = [task.answer.options[task.answer.right] for task in tasks if isinstance(task.answer, ChoiceAnswer)]
+    assert sum("of either sign" in text for text in right) == 3, "defocus, astigmatism, spherical aberration"
+    assert [step.move for step in lesson.steps].count("sensor_shift_um") == 3, "a second focus"
+    assert list(find_lectures()[0])[-2:] == ["unknown_stars", AFTER]
 
 
 def test_an_answer_is_right_with_its_reason_alone():

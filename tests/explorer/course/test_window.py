@@ -12,7 +12,7 @@ from p2sf_explorer.course.results_window import FIRST
 from p2sf_explorer.i18n.language import set_language
 from p2sf_explorer.lessons import task_record
 from p2sf_explorer.lessons.answer_fields import OptionLabel, answer_field
-from p2sf_explorer.lessons.controller import progress_path
+from p2sf_explorer.lessons.controller import OPEN, progress_path
 from p2sf_explorer.lessons.task import ChoiceAnswer, Exercise
 from p2sf_explorer.lessons.task_record import CourseResult, TaskRecord, read_result, write_result
 from tests.explorer.course.test_tasks import LESSON, STEP
@@ -164,6 +164,21 @@ def test_what_is_expected_is_marked_on_the_picture_and_told_beside_what_is(
     teaching._go(NAME, 0)
     qtbot.waitUntil(lambda: not chart.expects)
     assert not chart.pins
+
+
+def test_the_line_under_the_stage_does_not_give_the_answer_while_a_question_is_open(window, qtbot, teaching, at):
+    panel, line = at("choice"), window.foot.sentence
+    at_rest(window, qtbot)
+    assert line.text() == OPEN
+    panel.field.show_answer(str(LESSON.steps[STEP["choice"]].task.answer.right + 1))
+    panel.check.click()
+    at_rest(window, qtbot)
+    assert line.text() not in ("", OPEN)
+    at("radius")
+    assert line.text() == OPEN
+    teaching.leave()
+    at_rest(window, qtbot)
+    assert line.text() not in ("", OPEN)
 
 
 def test_items_are_moved_into_order_by_buttons(teaching, at):
