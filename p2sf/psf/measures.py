@@ -8,7 +8,6 @@ See handbook 6.3.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from math import sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,31 +17,18 @@ from p2sf.arguments import number_list
 from p2sf.colour.spectrum import Spectrum
 from p2sf.conventions import UM_PER_MM
 from p2sf.disc.mask import CLEAR
-from p2sf.errors import GeometryError, RequestError
+from p2sf.errors import RequestError
 from p2sf.figures.energy import EncircledLight, LandingPoints, energy_of, radius_of
 from p2sf.figures.measures import PARTS, Energy, LineSpread, Mtf
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
 from p2sf.messages import Alternatives
-from p2sf.paraxial.seidel import Coefficients, check_seidel, coefficients
 from p2sf.psf.choosing import choose
-from p2sf.psf.methods import AUTO
-from p2sf.psf.prediction import SAFETY, seidel_error
-from p2sf.psf.seidel import check_image
-from p2sf.pupil.fit import fit
+from p2sf.psf.methods import AUTO, METHODS
 from p2sf.pupil.frequency_pupil import (
-    WHOLE_PUPIL,
     FrequencyPupil,
-    PupilAtRims,
-    PupilEnd,
-    pupil_of_coefficients,
-    pupil_of_fit,
-    pupil_of_rays,
     rotate_frequencies,
-    with_spot,
 )
-from p2sf.pupil.seen_mask import mask_seen
-from p2sf.raytrace.exit_sphere import exit_sphere
 from p2sf.threads import never, one_blas_thread
 
 if TYPE_CHECKING:
@@ -88,61 +74,16 @@ def pupil_of(
     ``turn_deg``: by how much its axes are turned from those of the source's image, from +y towards +x.
     Raises GeometryError where rays do not reach the sensor, RequestError for a method that knows no pupil.
     """
-    if method not in (AUTO, *PUPILS):
+    known = {each.name: each.over_frequency for each in METHODS if each.over_frequency}
+    if method not in (AUTO, *known):
         raise RequestError(
             'method "{method}" describes no pupil; choose {methods}',
             method=method,
-            methods=Alternatives((AUTO, *PUPILS)),
+            methods=Alternatives((AUTO, *known)),
         )
     if method == AUTO:
         method = choose(lens, source, clip=clip).method
-    return PUPILS[method](lens, source, clip, turn_deg), method
-
-
-def _six_pupil(lens: Lens, source: Source, clip: bool, turn_deg: float) -> FrequencyPupil:
-    check_seidel(lens)
-    six = coefficients(lens, source.depth_mm, source.field_slope, source.wavelength_um)
-    check_image(six)
-    return pupil_of_six(lens, source, six, turn_deg, clip)
-
-
-def _fit_pupil(lens: Lens, source: Source, clip: bool, turn_deg: float) -> FrequencyPupil:
-    found = pupil_of_fit(fit(lens, source), turn_deg, _end_of(lens, source, clip))
-    return with_spot(found, lens, source, clip, turn_deg)
-
-
-def _end_of(lens: Lens, source: Source, clip: bool) -> PupilEnd:
-    """Return where a pupil that is described whole ends."""
-    return PupilAtRims(lens, source, clip) if clip else WHOLE_PUPIL
-
-
-def _spherical_pupil(lens: Lens, source: Source, clip: bool, turn_deg: float) -> FrequencyPupil:
-    return pupil_of_rays(lens, source, clip, turn_deg, exit_sphere(lens, source))
-
-
-PUPILS = {
-    "seidel": _six_pupil,
-    "fitted": _fit_pupil,
-    "traced": pupil_of_rays,
-    "huygens": pupil_of_rays,
-    "spherical": _spherical_pupil,
-}
-"""What describes the pupil of each method that has one."""
-
-
-def pupil_of_six(
-    lens: Lens, source: Source, six: Coefficients, turn_deg: float = 0.0, clip: bool = False
-) -> FrequencyPupil:
-    """Return the pupil of six coefficients of a lens, with what they are predicted to miss of its exact rays."""
-    missed = sqrt(seidel_error(lens, source, six) / SAFETY["seidel"]) / (2 * np.pi)
-    pupil = pupil_of_coefficients(six, mask_seen(lens, source), turn_deg, _end_of(lens, source, clip))
-    pupil = replace(pupil, residual_waves=missed)
-    if lens.misaligned:  # the six are those of the aligned lens
-        return pupil
-    try:
-        return with_spot(pupil, lens, source, clip, turn_deg)
-    except GeometryError:  # no ray arrives, which the six cannot know
-        return pupil
+    return known[method](lens, source, clip, turn_deg), method
 
 
 def _predicted_error(parts: "Parts") -> float:

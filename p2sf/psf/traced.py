@@ -9,9 +9,10 @@ from math import prod
 
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.psf.picture import psf_of_pupil
+from p2sf.psf.picture import Window, psf_of_pupil
 from p2sf.psf.result import Psf
 from p2sf.pupil.plane_waves import window_reach_um
+from p2sf.pupil.pupil import Pupil
 from p2sf.pupil.rays import MOST_INTERPOLATED, RayPupil
 from p2sf.pupil.watch import MOST_RAYS, Watch
 from p2sf.threads import one_blas_thread
@@ -37,8 +38,9 @@ def traced_psf(
     rays.
     """
     pupil, watch = traced_pupil(lens, source, clip), watch or Watch()
-    once = quality == "preview" or one_pass_suffices(pupil, window_reach_um(pixels, pixel_um), watch)
-    return psf_of_pupil(pupil, (pixels, pixel_um), quality, None if once else EDGE_TOLERANCE, watch)
+    window = pixels, pixel_um
+    rtol = rtol_of_rays(pupil, window, watch) if quality == "settled" else None
+    return psf_of_pupil(pupil, window, quality, rtol, watch)
 
 
 def traced_pupil(lens: Lens, source: Source, clip: bool = False) -> RayPupil:
@@ -46,10 +48,16 @@ def traced_pupil(lens: Lens, source: Source, clip: bool = False) -> RayPupil:
     return RayPupil(lens, source, clip, method="traced", interpolated=True, most=MOST_INTERPOLATED)
 
 
-def one_pass_suffices(pupil: RayPupil, reach_um: float, watch: Watch) -> bool:
-    """Return whether one sum of rays is exact enough and costs no more than is allowed."""
+def rtol_of_rays(pupil: Pupil, window: Window, watch: Watch) -> float | None:
+    """Return the agreement that two settled sums of a pupil need; None where one is enough.
+
+    It is where its nodes are known to suffice: not along an outline, nor where too many rays would have to be traced.
+    """
+    if not pupil.interpolated:
+        return None
     if pupil.edges:
-        return False
+        return EDGE_TOLERANCE
     if watch.most >= MOST_RAYS:  # more are refused
-        return True
-    return prod(pupil.counts(reach_um)) // 2 <= watch.most or pupil.smooth(reach_um)
+        return None
+    reach = window_reach_um(*window)
+    return None if prod(pupil.counts(reach)) // 2 <= watch.most or pupil.smooth(reach) else EDGE_TOLERANCE

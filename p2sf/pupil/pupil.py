@@ -68,6 +68,10 @@ class Pupil(ABC):
         """Return what is to be said of how its nodes were made."""
         return ()
 
+    def smooth(self, reach_um: float) -> bool:
+        """Return whether no ray has to be traced for each node, up to a distance from the chief ray, µm."""
+        return True
+
     @abstractmethod
     def counts(self, reach_um: float, quality: str = "settled") -> Counts:
         """Return the node counts that resolve the phase up to a distance from the chief ray, µm.

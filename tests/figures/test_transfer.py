@@ -1,5 +1,7 @@
 """Transfer function, line and edge spread from the pupil, against closed forms, Hopkins's integral and plain sums."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.special import roots_legendre
@@ -15,6 +17,7 @@ from p2sf.lensfile.library import find_lens, shipped_lenses
 from p2sf.psf import measures
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.measures import PupilPart, mtf_of, spread_of
+from p2sf.psf.methods import TRACED
 from p2sf.pupil.fit import fit
 from p2sf.pupil.frequency_pupil import pupil_of_coefficients, pupil_of_fit, pupil_of_rays
 from tests.support.overlap import overlap
@@ -210,7 +213,7 @@ def test_contrast_in_daylight_is_refused_at_the_first_wavelength(monkeypatch):
         pupils.append(pupil_of_rays(*given))
         return pupils[-1]
 
-    monkeypatch.setitem(measures.PUPILS, "traced", counted)
+    monkeypatch.setattr(measures, "METHODS", (replace(TRACED, over_frequency=counted),))
     with pytest.raises(SamplingError) as caught:
         p2sf.Camera(find_lens("fast_gauss_f14")).at(Source(field_deg=15)).mtf(spectrum="d65", method="traced")
     assert caught.value.message.values["waves"] > 1000 and len(pupils) == 1

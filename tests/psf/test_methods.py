@@ -24,7 +24,6 @@ from p2sf.paraxial.wavefront import wavefront
 from p2sf.psf import cost, methods
 from p2sf.psf.choosing import QUICK_LEVELS, REASONS, Choice, choose
 from p2sf.psf.huygens import huygens_psf
-from p2sf.psf.measures import PUPILS
 from p2sf.psf.methods import NAMES, PsfOptions, PsfRequest, render
 from p2sf.psf.pixel_integrals import render_integrated
 from p2sf.psf.prediction import CAUTION, predicted_error, residual_for, seidel_sigma
@@ -294,7 +293,7 @@ def test_a_method_with_a_grid_of_its_own_says_what_it_costs(monkeypatch):
 def test_a_method_that_describes_no_pupil_makes_its_own_picture(monkeypatch):
     """Only one that is made from the reference's picture is taken from it."""
     lens, source, pixel, _ = off_axis()
-    own = replace(methods.FITTED, name="own", pupil=False)
+    own = replace(methods.FITTED, name="own", over_frequency=None)
     monkeypatch.setattr(methods, "METHODS", (*methods.METHODS, own))
     made, fitted = (render_integrated(lens, source, method, 16, pixel) for method in ("own", "fitted"))
     assert np.array_equal(made.values, fitted.values)
@@ -306,8 +305,8 @@ def test_every_list_of_methods_names_those_there_are():
     wanted = {methods.AUTO, *NAMES}
     assert set(get_args(api.Method)) == wanted
     assert set(inspect.signature(tradeoff).parameters["methods"].default) == set(NAMES)
-    described = {method.name for method in methods.METHODS if method.pupil}
-    assert set(PUPILS) == described and set(get_args(api.PupilMethod)) == {methods.AUTO, *described}
+    described = {method.name for method in methods.METHODS if method.over_frequency}
+    assert set(get_args(api.PupilMethod)) == {methods.AUTO, *described}
     assert set(REASONS) == described  # those that `choose` takes
 
 

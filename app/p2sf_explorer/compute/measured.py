@@ -61,7 +61,8 @@ def measure_request(live: Live) -> MeasureRequest:
 @lru_cache(maxsize=4)
 def measured_parts(request: MeasureRequest) -> "tuple[PupilPart, ...]":
     """Return the pupil of a request; P2SFError where there is none."""
-    from p2sf.psf.measures import PupilPart, pupil_of_six
+    from p2sf.psf.measures import PupilPart
+    from p2sf.psf.over_frequency import pupil_of_six
 
     if request.six:
         six = Coefficients(*map(np.asarray, request.six))

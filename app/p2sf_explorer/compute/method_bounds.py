@@ -13,7 +13,7 @@ from p2sf_explorer.compute.method import ALONE, NO_REASON, Task
 from p2sf_explorer.compute.setup import paraxial_setup
 from p2sf_explorer.state.state import State, change
 
-NAMES = tuple(method.name for method in METHODS if method.pupil)  # from fast to exact
+NAMES = tuple(method.name for method in METHODS if method.over_frequency)  # from fast to exact
 EXACTEST, COARSEST = 1e-5, 0.3  # 1 − R² at the ends of the slider
 REPEATS = 3
 

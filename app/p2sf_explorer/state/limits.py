@@ -16,7 +16,7 @@ from p2sf_explorer.state.terms import TERMS
 CHOICES = {
     "stop": ("file", "auto"),
     "aim": AIMS,
-    "method": (AUTO, *(method.name for method in METHODS if method.pupil)),
+    "method": (AUTO, *(method.name for method in METHODS if method.over_frequency)),
     "psf_scale": ("linear", "sqrt", "log", "log8"),
     "psf_units": ("sum", "peak", "strehl"),
     "phase": ("waves", "contour", "surface", "wrapped"),
