@@ -6,21 +6,23 @@ from math import inf
 
 import numpy as np
 
-from p2sf.disc.domain import ClearNodes, PupilDomain
+from p2sf.disc.domain import PupilDomain
 from p2sf.disc.mask import PupilMask
-from p2sf.disc.mask_nodes import mask_nodes, outline_radius
+from p2sf.disc.mask_nodes import outline_radius
+from p2sf.disc.open_part import OpenPart
 from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens, check_rays
 from p2sf.lens.source import Source
-from p2sf.pupil.clear_curves import CLIPPED, LOST, clear_curve, holes_of
+from p2sf.pupil.clear_curves import CLIPPED, LOST
 from p2sf.pupil.seen_mask import mask_seen
-from p2sf.pupil.vignetting import whole_nodes
+from p2sf.pupil.smooth_pupil import all_reach
+from p2sf.pupil.vignetting import open_part
 from p2sf.raytrace.aiming import Sources
 from p2sf.raytrace.pencil import rays_through
 
 RINGS = 16  # Gauss–Legendre, of twice as many rays each: RMS to 1e-5 for every shipped lens, whole pupils
-FINER = 4  # times as many, where a yes or no ends the pupil between them
 RIM_RAYS = 48  # on half the rim
+ON_RIM = 1e-9  # beyond it, and still on it
 JUST_INSIDE = 1 - 1e-9  # of the radius of an outline, which itself may count as covered
 MEAN_ROUNDING = 1e-14  # of the largest term: some fifty roundings, all that a mean over symmetric rays consists of
 WEIGHT_ROUNDING = 1e-6  # of the largest term: the weights of aimed rays are differences, good to that
@@ -82,32 +84,22 @@ def _root(square: np.ndarray) -> np.ndarray:
 def landing(
     lens: Lens, source: Source | Sources, clip: bool = False, follow_rims: bool = True, rings: int = RINGS
 ) -> Landing:
-    """Return where the light of a source lands, by Gauss–Legendre ``rings`` over what is open of the pupil.
+    """Return where the light of a source lands, by nodes of about ``rings`` radii over what is open of the pupil.
 
-    Where rims cut into the clear disc, or rays are lost, the rings end there; of several `Sources`, unless
-    ``follow_rims``, and behind a mask or holes, rays there are in or out, so that means are coarser. Raises
-    GeometryError where no ray reaches the sensor, or the mask in the stop bends them.
+    Of several `Sources`, unless ``follow_rims``, and without it of any, rays at rims are in or out, so that means are
+    coarser. Raises GeometryError where no ray reaches the sensor, or the mask in the stop bends them.
     """
-    if isinstance(source, Sources):
-        return _landing(lens, source, clip, False, rings)
-    return _kept_landing(lens, source, clip, follow_rims, rings)
+    if isinstance(source, Sources) or not follow_rims:
+        mask = mask_of_rays(lens, source)
+        part = OpenPart(domain=lens.pupil_domain).behind(mask)
+        return _trace(lens, source, part, clip, rings)
+    return _kept_landing(lens, source, clip, rings)
 
 
-def _landing(lens: Lens, source: Source | Sources, clip: bool, follow_rims: bool, rings: int) -> Landing:
-    mask = mask_of_rays(lens, source)
-    domain = lens.pupil_domain.behind(mask.domain)
-    found, whole = _trace_sources(lens, source, _open_nodes(mask, rings, domain), _rim_points(mask, domain), clip)
-    if whole or not follow_rims or isinstance(source, Sources):
-        return _check_light(found, clip)
-    if mask.clear and not (clip and holes_of(lens)):
-        rim = clear_curve(lens, source, clip)
-        nodes = rim.nodes((rings, 2 * rings))
-        return _check_light(_trace_sources(lens, source, nodes, rim.points(RIM_RAYS), False)[0], clip)
-    nodes = _open_nodes(mask, FINER * rings, domain)
-    return _check_light(_trace_sources(lens, source, nodes, _rim_points(mask, domain), clip)[0], clip)
-
-
-_kept_landing = lru_cache(maxsize=32)(_landing)
+@lru_cache(maxsize=32)
+def _kept_landing(lens: Lens, source: Source, clip: bool, rings: int) -> Landing:
+    mask_of_rays(lens, source)
+    return _trace(lens, source, open_part(lens, source, clip, all_reach(lens, source)), False, rings)
 
 
 def mask_of_rays(lens: Lens, source: Source | Sources) -> PupilMask:
@@ -120,37 +112,29 @@ def mask_of_rays(lens: Lens, source: Source | Sources) -> PupilMask:
     return mask_seen(lens, source if isinstance(source, Source) else Source(inf, 0.0, wave))
 
 
-def _open_nodes(mask: PupilMask, rings: int, domain: PupilDomain) -> ClearNodes:
-    nodes = whole_nodes((rings, 2 * rings)) if mask.clear else mask_nodes(mask, rings, 2 * rings)
-    return domain.over(nodes)
-
-
-def _rim_points(mask: PupilMask, domain: PupilDomain) -> tuple[np.ndarray, np.ndarray]:
-    """Return ξ and η on the outline of what a mask leaves open, and of an obscuration."""
+def _rim_points(part: OpenPart) -> tuple[np.ndarray, np.ndarray]:
+    """Return ξ and η of points on the outline of what is open, and of an obscuration."""
+    mask, domain, rim = part.mask, part.domain, part.rim
     theta = np.linspace(0, domain.turn, RIM_RAYS * len(domain.halves) + 1)
-    if mask.clear:
-        return np.sin(theta), np.cos(theta)
-    radius = JUST_INSIDE * outline_radius(mask, theta)
-    rim, disc = np.stack([radius * np.sin(theta), radius * np.cos(theta)]), mask.disc
-    xi, eta = np.concatenate([rim, replace(disc, radius=disc.radius / JUST_INSIDE).outline(theta)], axis=1)
-    open_there = mask.opens(xi, eta) & (mask.amplitude(xi, eta) > 0)
-    return xi[open_there], eta[open_there]
+    radius = outline_radius(mask, theta) * (1.0 if mask.clear else JUST_INSIDE)
+    drawn = [np.stack([radius * np.sin(theta), radius * np.cos(theta)])] if rim is None or mask.iris else []
+    if rim is not None:
+        drawn.append(np.stack(rim.points(RIM_RAYS, domain)))
+    if mask.obscured:
+        drawn.append(np.stack(replace(mask.disc, radius=mask.disc.radius / JUST_INSIDE).outline(theta)))
+    xi, eta = np.concatenate(drawn, axis=1)
+    inside = (part.beyond(xi, eta) <= ON_RIM) & mask.opens(xi, eta) & (mask.amplitude(xi, eta) > 0)
+    return xi[inside], eta[inside]
 
 
-def _trace_sources(
-    lens: Lens, source: Source | Sources, nodes: ClearNodes, rim: tuple[np.ndarray, np.ndarray], clip: bool
-) -> tuple[Landing, bool]:
-    """Return where rays through nodes and through points of the rim land, and whether all of them do."""
-    rays = rays_through(lens, source, nodes.with_points(*rim), clip)
+def _trace(lens: Lens, source: Source | Sources, part: OpenPart, clip: bool, rings: int) -> Landing:
+    """Return where rays through nodes and through points of the rim land. Raises GeometryError where none arrives."""
+    nodes = part.nodes((rings, 2 * rings))
+    rays = rays_through(lens, source, nodes.with_points(*_rim_points(part)), clip)
     light = rays.share * rays.light
     with np.errstate(invalid="ignore"):
         light = light / light.sum(-1, keepdims=True)
-    rounding = WEIGHT_ROUNDING if lens.aim == "stop" else MEAN_ROUNDING
-    return Landing(rays.x_um, rays.y_um, light, nodes.domain, rounding), bool(rays.passed.all())
-
-
-def _check_light(found: Landing, clip: bool) -> Landing:
-    """Return it; GeometryError where no light of any source arrives."""
-    if not np.isfinite(found.light).any():
+    if not np.isfinite(light).any():
         raise GeometryError(CLIPPED if clip else LOST, parameter="clip")
-    return found
+    rounding = WEIGHT_ROUNDING if lens.aim == "stop" else MEAN_ROUNDING
+    return Landing(rays.x_um, rays.y_um, light, nodes.domain, rounding)
