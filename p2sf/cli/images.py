@@ -49,7 +49,7 @@ def psf(
     threads: Threads = None,
     as_json: Json = False,
 ) -> None:
-    """Compute the PSF of one source and write it as .npz, .tiff, .csv, .fits or .png; with a spectrum as .npz or .png.
+    """Compute the PSF of one source and write it as .npz, .tiff, .csv, .fits, .nc or .png; with a spectrum .npz, .png.
 
     A set of PSFs of several depths, fields and wavelengths on a sensor's pixels, 4 µm apart when not given, is written
     as .npz, .tif, .fits, .mat, or its figures as .csv.

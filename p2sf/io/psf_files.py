@@ -1,4 +1,4 @@
-"""One PSF to .npz, .tiff, .csv, .fits and a .png picture, and its samples and facts from all but the last."""
+"""One PSF to .npz, .tiff, .csv, .fits, .nc and a .png picture, and its samples and facts from all but the last."""
 
 import json
 import os
@@ -13,8 +13,10 @@ from p2sf.figures.record import CONVENTIONS
 from p2sf.files.reading import LONGEST_TEXT, check_unpacked, first_page, open_file, parse_json, read_arrays, size_of
 from p2sf.files.writing import by_ending, write_arrays, write_beside
 from p2sf.io.fits import FITS, axis_cards, picture_and_meta, write_image
+from p2sf.io.netcdf import read_netcdf, write_netcdf
 from p2sf.io.record import caption, csv_head, with_facts
 from p2sf.io.tiff import write_pages
+from p2sf.named_arrays import along
 from p2sf.version import program_version
 
 UM_PER_CM = 1e4
@@ -22,7 +24,7 @@ CSV_HEAD = 4  # lines before the numbers of a .csv
 
 
 def write_psf(psf: PsfData, path: str | os.PathLike[str], meta: dict | None = None) -> Path:
-    """Write one PSF, shape (y, x), as .npz, .tiff, .csv, .fits or .png by the ending of ``path``; return the path.
+    """Write one PSF, shape (y, x), as .npz, .tiff, .csv, .fits, .nc or .png by the ending of ``path``; return the path.
 
     `Psf.record` is stored with it, and ``meta``, any facts as JSON has them. Raises ExportError for an unknown ending,
     a stack of PSFs, or a file that cannot be written; an old file then stays untouched.
@@ -54,6 +56,11 @@ def _write_fits(handle: BinaryIO, psf: PsfData, meta: dict) -> None:
         ("METHOD", psf.method, "method of computing the PSF"),
     ]
     write_image(handle, np.asarray(psf.values, dtype=float), header, meta)
+
+
+def _write_netcdf(handle: BinaryIO, psf: PsfData, meta: dict) -> None:
+    samples = {"psf": (("y_um", "x_um"), np.asarray(psf.values, dtype=float))}
+    write_netcdf(handle, along("y_um", psf.y_um) | along("x_um", psf.x_um) | samples, meta)
 
 
 def _write_csv(handle: BinaryIO, psf: PsfData, meta: dict) -> None:
@@ -101,11 +108,16 @@ def _read_fits(path: str | os.PathLike[str]) -> tuple[np.ndarray, Any]:
     return values.astype(float), meta
 
 
+def _read_netcdf(path: str | os.PathLike[str]) -> tuple[np.ndarray, Any]:
+    return read_netcdf(path, "psf")
+
+
 WRITERS = {
     ".npz": _write_npz,
     **dict.fromkeys((".tiff", ".tif"), _write_tiff),
     ".csv": _write_csv,
     **dict.fromkeys(FITS, _write_fits),
+    ".nc": _write_netcdf,
     ".png": _write_png,
 }
 READERS = {
@@ -113,6 +125,7 @@ READERS = {
     **dict.fromkeys((".tiff", ".tif"), _read_tiff),
     ".csv": _read_csv,
     **dict.fromkeys(FITS, _read_fits),
+    ".nc": _read_netcdf,
 }
 """Return the samples and what else the file states; they raise what numpy, the parsers of JSON and `open` do."""
 ENDINGS = tuple(WRITERS)

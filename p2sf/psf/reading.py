@@ -1,4 +1,4 @@
-"""One PSF from a .npz, .tiff, .csv or .fits file that this program wrote."""
+"""One PSF from a .npz, .tiff, .csv, .fits or .nc file that this program wrote."""
 
 import os
 
@@ -20,7 +20,7 @@ OF_THE_FILE = ("psf", "state")
 
 
 def read_psf(path: str | os.PathLike[str]) -> tuple[Psf, dict]:
-    """Return the PSF in a .npz, .tiff, .csv or .fits that this program wrote, and its meta.
+    """Return the PSF in a .npz, .tiff, .csv, .fits or .nc that this program wrote, and its meta.
 
     Exact but for the float32 of .tiff. Raises ExportError for a file that is missing or of another kind.
     """

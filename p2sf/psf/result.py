@@ -235,7 +235,7 @@ class Psf(PsfData):
         return NamedArrays(arrays, places | own, self.record).to_xarray()
 
     def save(self, path: str | PathLike[str]) -> Path:
-        """Write the PSF to a file, .npz, .tiff, .csv, .fits or .png by its ending; see `p2sf.write_psf`."""
+        """Write the PSF to a file, .npz, .tiff, .csv, .fits, .nc or .png by its ending; see `p2sf.write_psf`."""
         from p2sf.io.psf_files import write_psf
 
         return write_psf(self, path)

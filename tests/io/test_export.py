@@ -120,7 +120,7 @@ def test_a_scale_bar_has_a_round_length(longest, length):
 
 @pytest.mark.parametrize("name", ["spot.jpeg", "spot", "spot.fits.gz"])
 def test_an_unknown_ending_lists_the_known_ones(tmp_path, name):
-    with pytest.raises(ExportError, match=r"\.csv, \.fit, \.fits, \.fts, \.npz, \.png, \.tif, \.tiff"):
+    with pytest.raises(ExportError, match=r"\.csv, \.fit, \.fits, \.fts, \.nc, \.npz, \.png, \.tif, \.tiff"):
         write_psf(blob(), tmp_path / name, META)
     assert not os.listdir(tmp_path)
 

@@ -5,6 +5,8 @@ import hashlib
 import io
 import json
 import pickle
+import subprocess
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -43,13 +45,57 @@ def check(record, psf):
     assert "+y" in record["conventions"]
 
 
-@pytest.mark.parametrize("ending", ["npz", "tiff", "csv"])
+@pytest.mark.parametrize("ending", ["npz", "tiff", "csv", "nc"])
 def test_a_saved_psf_is_read_back_with_all_it_is_of(psf, tmp_path, ending):
     again, meta = p2sf.read_psf(psf.save(tmp_path / f"psf.{ending}"))
     check(meta, psf)
     assert again.record == psf.record
     twice, _ = p2sf.read_psf(again.save(tmp_path / f"twice.{ending}"))
     assert twice.record == psf.record
+
+
+ELSEWHERE = """
+import json, sys
+import numpy as np
+import p2sf
+folder, ending = sys.argv[1:]
+p2sf.load_lens = None
+psf, meta = p2sf.read_psf(f"{folder}/psf.{ending}")
+np.save(f"{folder}/values.npy", psf.values)
+print(json.dumps(psf.record))
+"""
+
+
+@pytest.mark.parametrize("ending", ["npz", "tiff", "csv", "fits", "nc"])
+def test_a_file_is_understood_in_a_fresh_process_without_the_lens(psf, tmp_path, ending):
+    """The same samples, of a TIFF to float32, and the same record; of a lens of which there is no file."""
+    if ending == "fits":
+        pytest.importorskip("astropy")
+    psf.save(tmp_path / f"psf.{ending}")
+    command = [sys.executable, "-c", ELSEWHERE, str(tmp_path), ending]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert json.loads(done.stdout) == psf.record
+    kept = psf.values.astype(np.float32) if ending == "tiff" else psf.values
+    np.testing.assert_array_equal(np.load(tmp_path / "values.npy"), kept)
+
+
+def test_other_programs_find_the_same_samples_and_record(psf, tmp_path):
+    """By xarray, astropy and tifffile alone."""
+    xarray, tifffile = pytest.importorskip("xarray"), pytest.importorskip("tifffile")
+    with xarray.open_dataset(psf.save(tmp_path / "psf.nc"), engine="scipy") as data:
+        np.testing.assert_array_equal(data["psf"].values, psf.values)
+        np.testing.assert_array_equal(data["x_um"].values, psf.x_um)
+        assert data["psf"].dims == ("y_um", "x_um") and data["y_um"].attrs == {"units": "um"}
+        assert {name: data.attrs[name] for name in STATED} == pytest.approx(STATED, rel=1e-12)
+        assert (data.attrs["lens"], data.attrs["mask_blades"], data.attrs["method"]) == ("tessar", 7, psf.method)
+        assert json.loads(data.attrs["p2sf_meta"]) == psf.record
+    with tifffile.TiffFile(psf.save(tmp_path / "psf.tiff")) as file:
+        np.testing.assert_array_equal(file.asarray(), psf.values.astype(np.float32))
+        assert json.loads(file.pages.first.description) == psf.record
+    fits = pytest.importorskip("astropy.io.fits")
+    with fits.open(psf.save(tmp_path / "psf.fits")) as units:
+        np.testing.assert_array_equal(units[0].data, psf.values)
+        assert json.loads(units[0].header["P2SFMETA"]) == psf.record
 
 
 def test_pictures_and_fits_say_the_same(psf, tmp_path):
