@@ -42,7 +42,7 @@ def _climb(angle: np.ndarray, turn: np.ndarray, moments: np.ndarray, place: np.n
     for _ in range(STEPS):
         here = angle[left] + (2 * np.pi * place[left]).astype(SINGLE) @ turn
         value, step, gain = newton_step(np.cos(here) @ moments + 1j * (np.sin(here) @ moments))
-        part = np.minimum(1.0, LONGEST / np.maximum(np.hypot(*step.T), 1e-300))
+        part = LONGEST / np.maximum(np.hypot(*step.T), LONGEST)
         done = (part == 1) & (gain < ENOUGH * value)
         peak[left] = np.maximum(peak[left], value + np.where(done, gain, 0.0))
         place[left] += part[:, None] * step

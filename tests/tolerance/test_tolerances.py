@@ -477,6 +477,12 @@ def test_a_tilt_moves_the_peak_and_takes_nothing_from_it(away):
         assert strehl_ratios(waves[None], weight, np.stack([x, y])) == pytest.approx([still], abs=1e-5)
 
 
+def test_a_build_without_aberration_divides_by_no_step():
+    xi, eta, weight = whole_disc(8, 16)
+    with np.errstate(all="raise"):
+        assert strehl_ratios(np.zeros((1, xi.size)), weight, np.stack([xi, eta])) == pytest.approx([1.0], abs=1e-6)
+
+
 @pytest.mark.parametrize("kind", ["tilt_x", "tilt_y"])
 def test_a_piece_that_stands_tilted_turns_about_the_axes_of_its_mount(kind):
     """A degree more of one of its angles, by the difference of two placements: what a vertex does, and the rotation."""
