@@ -16,7 +16,6 @@ import numpy as np
 from p2sf.disc.domain import HALF, WHOLE, ClearNodes, PupilDomain
 from p2sf.disc.mask import CLEAR, Disc, Inside, PupilMask
 from p2sf.disc.mask_nodes import (
-    THINNEST,
     exit_distance,
     join_pieces,
     mask_nodes,
@@ -38,7 +37,6 @@ CORNER_STEPS = 4  # a corner's direction to 2e-7: the radius is continuous there
 NOTHING_OPEN = "rims and the mask in the stop leave nothing open; leave {parameter} off"
 
 TURN = np.arange(2 * CURVE) * (pi / CURVE)
-DISC = np.stack([np.sin(TURN), np.cos(TURN)])
 
 Edges = list[tuple[np.ndarray, np.ndarray]]
 """Closed curves, ξ and η each."""
@@ -130,28 +128,6 @@ class OpenPart:
                 else:
                     found.append(((-1) ** size, curve))
         return found
-
-    def line_nodes(self, lines: int, samples: int) -> ClearNodes:
-        """Return nodes of positive weights over it.
-
-        Some ``lines`` along η between the ends and corners of all edges, of ``samples`` to a diameter. Raises
-        GeometryError where nothing is open.
-        """
-        light, dark = ([np.stack(edge) for edge in some] for some in self.edges())
-        light = [DISC if self.rim is None else np.stack(self.rim.points(CURVE // 2, WHOLE)), *light]
-        places, widths = self.domain.of_lines(*places_between([*light, *dark], lines))
-        parts = []
-        for low, high in zip(*open_intervals(light, dark, places), strict=True):
-            node, weight = gauss_legendre(max(FEWEST_PER_PANEL, ceil(samples * float((high - low).max()) / 2)))
-            half = (high - low)[:, None] / 2
-            eta, area = (low + high)[:, None] / 2 + half * node, widths[:, None] * half * weight
-            kept = area > 0
-            parts.append((np.broadcast_to(places[:, None], eta.shape)[kept], eta[kept], area[kept] / pi))
-        xi, eta, area = (np.concatenate(column) for column in zip(*parts, strict=True))
-        share = float(area.sum())
-        if not share > THINNEST:
-            raise GeometryError(NOTHING_OPEN, parameter="clip")
-        return ClearNodes(xi, eta, area / share, share, domain=self.domain)
 
 
 WHOLE_DISC = OpenPart()

@@ -5,10 +5,9 @@ from functools import lru_cache
 from p2sf.disc.domain import ClearNodes
 from p2sf.disc.open_part import OpenPart
 from p2sf.disc.quadrature import disc_nodes
-from p2sf.errors import GeometryError
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.pupil.clear_curves import clear_curve, hole_curves, holes_of
+from p2sf.pupil.clear_curves import clear_curve, hole_curves
 from p2sf.pupil.seen_mask import mask_seen
 
 
@@ -42,23 +41,3 @@ def pupil_nodes(
 ) -> ClearNodes:
     """Return nodes over the `open_part`, about as dense as ``counts`` are over the disc."""
     return open_part(lens, source, clip, whole and not clip).nodes(counts)
-
-
-def clear_nodes(lens: Lens, source: Source, counts: tuple[int, int], clip: bool = True) -> ClearNodes:
-    """Return nodes over the part of the pupil that rims leave clear, about as dense as ``counts`` are over the whole.
-
-    Raises GeometryError when no part is clear, and for a lens with holes that end rays.
-    """
-    check_without_holes(lens, clip)
-    return clear_curve(lens, source, clip).nodes(counts)
-
-
-def check_without_holes(lens: Lens, clip: bool) -> None:
-    """Raise GeometryError where rims clip and a surface has a hole, for what takes the clear part to have none."""
-    if clip and holes_of(lens):
-        raise GeometryError(
-            "surface {surface} has a hole, but this needs a clear part without holes; leave {parameter} off, "
-            "or treat the hole as an obscuration of the stop",
-            parameter="clip",
-            surface=holes_of(lens)[0],
-        )

@@ -16,7 +16,7 @@ from p2sf.psf.huygens import huygens_psf
 from p2sf.pupil.clear_curves import clear_curve
 from p2sf.pupil.plane_waves import window_reach_um
 from p2sf.pupil.rays import RayPupil
-from p2sf.pupil.vignetting import clear_nodes
+from p2sf.pupil.vignetting import pupil_nodes
 from p2sf.pupil.watch import Watch
 from p2sf.raytrace.pencil import pencil
 from tests.support.rays.pencils import double_gauss
@@ -105,7 +105,7 @@ def test_all_the_light_is_found_in_a_wide_window():
 def test_a_pupil_that_no_rim_touches_is_not_clipped():
     lens, source, pixel, _ = off_axis()
     narrow = replace(lens, aperture=Aperture("stop_semi_diameter", 4.0))
-    clear = clear_nodes(narrow, source, (8, 16))
+    clear = pupil_nodes(narrow, source, (8, 16), clip=True)
     assert clear.share == pytest.approx(1.0, abs=1e-12)
     plain, clipped = (huygens_psf(narrow, source, 32, pixel, clip=c) for c in (False, True))
     assert r_squared(clipped.values, plain.values) > 1 - 1e-8
@@ -119,7 +119,7 @@ def test_clear_apertures_end_exactly_at_the_rims():
     cut = replace(lens, surfaces=surfaces)
     # On axis the first rim simply stops the pupil down to a circle: 12 mm of 16.7 mm.
     assert clear_curve(cut, source).corners == (0.0, np.pi)
-    radius = clear_nodes(cut, source, (8, 24)).share ** 0.5
+    radius = pupil_nodes(cut, source, (8, 24), clip=True).share ** 0.5
     row = huygens_rows("double_gauss_28")[0][0]
     small = replace(lens, aperture=Aperture("stop_semi_diameter", lens.aperture.value * radius))
     pixel = row["pixel_um"]
@@ -131,7 +131,7 @@ def overfilled():
     """Return a lens whose first rim stops an axial beam down to a small circle, and the lens with such a stop."""
     lens = double_gauss()
     cut = replace(lens, surfaces=(replace(lens.surfaces[0], semi_diameter=4.0), *lens.surfaces[1:]))
-    radius = clear_nodes(cut, AXIAL, (8, 24)).share ** 0.5
+    radius = pupil_nodes(cut, AXIAL, (8, 24), clip=True).share ** 0.5
     return cut, replace(lens, aperture=Aperture("stop_semi_diameter", lens.aperture.value * radius))
 
 
@@ -176,7 +176,7 @@ def test_the_cats_eye_converges_and_loses_light():
     lens, source, pixel, _ = off_axis()
     clipped = huygens_psf(lens, source, 32, pixel, clip=True)
     assert clipped.error <= 1e-4
-    share = clear_nodes(lens, source, (8, 64)).share
+    share = pupil_nodes(lens, source, (8, 64), clip=True).share
     assert len(clear_curve(lens, source).corners) > 2
     grid = np.linspace(-1, 1, 201)
     xi, eta = (a.ravel() for a in np.meshgrid(grid, grid))
@@ -216,5 +216,5 @@ def test_where_rays_are_lost_the_pupil_ends_there_and_the_sum_still_converges():
     source = Source(inf, 0.0, 0.55)
     psf = huygens_psf(lens, source, 32, 20.0, 1e-3)
     assert psf.error <= 1e-3
-    share = clear_nodes(lens, source, (8, 64), clip=False).share
+    share = pupil_nodes(lens, source, (8, 64), whole=False).share
     assert share == pytest.approx((5.0 / 5.5) ** 2, rel=1e-9)

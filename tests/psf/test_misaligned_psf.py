@@ -18,7 +18,7 @@ from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import render
 from p2sf.psf.traced import traced_psf
 from p2sf.pupil.fit import NOT_SYMMETRIC, SLOPE_WEIGHT, fit, fit_rays, level_rays
-from p2sf.pupil.vignetting import clear_nodes
+from p2sf.pupil.vignetting import pupil_nodes
 from p2sf.raytrace.aiming import pupil_rays
 from p2sf.raytrace.pencil import hexapolar, pencil
 from tests.long.misaligned_methods import ASKED_OF_TRACED, outcomes
@@ -107,7 +107,7 @@ def test_rims_end_a_pupil_that_is_not_even(gauss):
     source, tilted = Source(field_deg=14), displaced(gauss, 1, 3, Placement(1.5, 0.5))
     xi, eta = hexapolar(50)
     passed = pencil(tilted, source, xi, eta, clip=True).passed
-    nodes = clear_nodes(tilted, source, (24, 60))
+    nodes = pupil_nodes(tilted, source, (24, 60), clip=True)
     assert not nodes.domain.symmetric and 0.2 < nodes.share < 0.95
     assert nodes.share == pytest.approx(passed.mean(), abs=0.005)
     assert nodes.weight @ nodes.xi == pytest.approx(xi[passed].mean(), abs=0.005)

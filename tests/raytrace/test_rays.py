@@ -12,7 +12,7 @@ from p2sf.disc.mask_nodes import mask_nodes
 from p2sf.lens.lens import with_mask
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
-from p2sf.pupil.vignetting import clear_nodes, whole_nodes
+from p2sf.pupil.vignetting import pupil_nodes, whole_nodes
 from p2sf.raytrace.pencil import hexapolar, pencil, rays_through
 
 STEP = 1e-4  # of the pupil's radius
@@ -47,7 +47,7 @@ def test_rays_that_rims_stop_have_no_light_and_no_field():
     rays = rays_through(lens, source, whole_nodes((60, 240)), clip=True)
     assert 0.05 < (~rays.passed).mean() < 0.6
     assert (rays.light[~rays.passed] == 0).all() and (rays.amplitude[~rays.passed] == 0).all()
-    inside = clear_nodes(lens, source, (24, 60))
+    inside = pupil_nodes(lens, source, (24, 60), clip=True)
     clear = rays_through(lens, source, inside)
     assert (rays.share * rays.light).sum() == pytest.approx(inside.share * (clear.share * clear.light).sum(), rel=3e-3)
     assert rays.arrived.xi.size == rays.passed.sum()
