@@ -1,6 +1,7 @@
 """A page whose answer is a size or a place holds its scale: what is painted changes by the ratio that it claims."""
 
 import numpy as np
+import pyqtgraph
 import pytest
 from PySide6.QtGui import QImage
 
@@ -10,6 +11,7 @@ from p2sf_explorer.compute.framing import light_circle
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.course.lectures import FOLDER as COURSE_FOLDER
 from p2sf_explorer.lessons.changes import LessonError, apply_changes, read_changes
+from p2sf_explorer.lessons.claims import measure_claim
 from p2sf_explorer.lessons.lesson import FOLDER as LESSON_FOLDER
 from p2sf_explorer.lessons.lesson import lesson_files, read_lesson
 from p2sf_explorer.lessons.making.recording import written_changes
@@ -100,6 +102,55 @@ def test_what_a_page_compares_stands_on_one_scale_and_is_in_view(window, qtbot, 
         for at, (low, high) in zip((light.x_um, light.y_um), chart.ranges(), strict=True):
             assert low <= at - SHOWN * light.radius_um and at + SHOWN * light.radius_um <= high
     assert scales[0] == scales[1]
+
+
+def grab_of(chart) -> np.ndarray:
+    """Return where on the scale of its greys each pixel of the plot stands, 0 to 1."""
+    image = chart.grab(chart.area.toRect()).toImage().convertToFormat(QImage.Format.Format_RGB32)
+    greys = pyqtgraph.colormap.get("CET-L1").getLookupTable(nPts=255, alpha=False).sum(1)
+    return np.interp(lightness(image), greys, np.linspace(0, 1, len(greys)))
+
+
+GREYS = 254  # steps of the scale
+
+
+def painted_figure(window, qtbot, state: State, measure: str) -> float:
+    """Return what a person with a ruler reads off the picture, in pixels.
+
+    In grey the square root of the light is painted. The ring is what differs with its curve and without it.
+    """
+    painted(window, qtbot, change(state, colours="grey"))
+    panel = window.panels["psf"]
+    chart, with_ring = panel.map.chart, grab_of(panel.map.chart)
+    for curve in (panel.airy, panel.arrow):
+        curve.set_data([], [])
+    plain = grab_of(chart)
+    if measure == "airy_radius_um":
+        ring = np.flatnonzero(with_ring[len(plain) // 2] != plain[len(plain) // 2])
+        return (ring.max() - ring.min()) / 2
+    step = plain * GREYS  # a grey stands for roots of the light from one step to the next: the mean of their squares
+    light, (rows, columns) = step**2 + step + 1 / 3, np.indices(plain.shape)
+    y, x = (float((light * at).sum() / light.sum()) for at in (rows, columns))
+    if measure == "centroid_y_um":
+        return float(chart.to_pixels(0.0, 0.0)[1]) - chart.area.top() - 0.5 - y
+    away = np.hypot(rows - y, columns - x).ravel()
+    order = away.argsort()
+    psf, ((left, right), (low, high)) = window.live.psf, chart.ranges()
+    seen = (psf.x_um >= left) & (psf.x_um <= right), (psf.y_um >= low) & (psf.y_um <= high)
+    share = float(psf.energy) * psf.values[np.ix_(*reversed(seen))].sum()  # of all light; the rest lies beyond the axes
+    return float(away[order][np.searchsorted(light.ravel()[order].cumsum(), 0.8 / share * light.sum())])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("state", "claim"), COMPARED)
+def test_what_is_painted_changes_by_the_ratio_that_is_claimed(window, qtbot, state, claim):
+    """By a twentieth, or a pixel where that is more, as a hall can see."""
+    first, second = (
+        painted_figure(window, qtbot, apply_changes(state, changes), claim.measure)
+        for changes in (claim.first, claim.second)
+    )
+    claimed = claim.number if claim.relation == "is" else measure_claim(claim, state)
+    assert first / second == pytest.approx(claimed, rel=max(0.05, 1 / min(abs(first), abs(second))))
 
 
 HELD = [
