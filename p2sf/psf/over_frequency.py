@@ -16,7 +16,6 @@ from p2sf.psf.prediction import SAFETY, seidel_error
 from p2sf.psf.seidel import check_image
 from p2sf.pupil.fit import fit
 from p2sf.pupil.frequency_pupil import (
-    WHOLE_PUPIL,
     FrequencyPupil,
     PupilAtRims,
     PupilEnd,
@@ -45,7 +44,7 @@ def fit_over_frequency(lens: Lens, source: Source, clip: bool, turn_deg: float) 
 
 def _end_of(lens: Lens, source: Source, clip: bool) -> PupilEnd:
     """Return where a pupil that is described whole ends."""
-    return PupilAtRims(lens, source, clip) if clip else WHOLE_PUPIL
+    return PupilAtRims(lens, source, clip) if clip else PupilEnd(lens.pupil_domain)
 
 
 def spheres_over_frequency(lens: Lens, source: Source, clip: bool, turn_deg: float) -> FrequencyPupil:

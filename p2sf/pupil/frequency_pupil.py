@@ -82,6 +82,10 @@ FINER = 2  # times as many radii and directions where rays are lost: those that 
 STOP_ORDERS = 4  # more over the stop, which the same rays carry
 MOST_KEPT_ORDER = 28  # of the polynomials over the stop that are kept: 10 MB
 EXACT = RayCounts(4, 6, 10)  # the six coefficients are a polynomial of fourth order
+Orders = tuple[RayCounts, ...]
+Data = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
+"""At points of the stop the weight of the field, NaN where no ray arrives, phase in waves, fx and fy."""
+DataAt = Callable[[np.ndarray, np.ndarray], Data]
 
 
 @dataclass(frozen=True, eq=False)
@@ -336,24 +340,20 @@ def pupil_of_rays(
     Raises GeometryError where the chief ray does not reach the sensor, or no polynomial describes the pupil, as where
     rays of different parts of it arrive in one direction.
     """
-    domain = lens.pupil_domain.turned(turn_deg)
     whole = not clip and all_reach(lens, source)
     if not (whole or clip):
         _check_reach(lens, source)
-    end = WHOLE_PUPIL if whole else PupilAtRims(lens, source, clip)
+    end = PupilEnd(lens.pupil_domain) if whole else PupilAtRims(lens, source, clip)
 
-    def trace_rays(sampling: RayCounts) -> PupilSamples:
-        columns, rim = end.columns(sampling.counts, domain)
-        rays = pencil(lens, source, *columns[:2])
+    def trace_rays(xi: np.ndarray, eta: np.ndarray) -> Data:
+        rays = pencil(lens, source, xi, eta)
         if whole and not rays.passed.all():
             raise GeometryError(UNFOLLOWED)
-        kept = rays.passed  # where light is lost, an outline by directions misses a few rays
-        rays = rays if sphere is None else sphere.seen_from(rays)[0]
-        frequencies = rotate_frequencies(rays.fx, rays.fy, turn_deg)
-        columns = np.stack([*columns, rays.amplitude, rays.phase, *frequencies])[:, kept]
-        return _samples(columns, int(kept[-rim:].sum()), domain, end.disc(sampling.counts))
+        # Where light is lost, an outline by directions misses a few rays.
+        passed, seen = rays.passed, rays if sphere is None else sphere.seen_from(rays)[0]
+        return np.where(passed, rays.amplitude, np.nan), seen.phase, seen.fx, seen.fy
 
-    found = replace(_settle(trace_rays, ORDERS), edges=end.edges)
+    found = _settle(end, turn_deg, trace_rays)
     if sphere:
         found = replace(found, residual_waves=hypot(found.residual_waves, beyond_plane_waves(lens, source, sphere)))
     found = behind_mask(found, mask_seen(lens, source), float(source.wavelength_um))
@@ -363,8 +363,10 @@ def pupil_of_rays(
 class PupilEnd:
     """Where a pupil ends: at the rim of the disc."""
 
-    domain: PupilDomain = HALF
     edges = WHOLE_DISC
+
+    def __init__(self, domain: PupilDomain = HALF):
+        self.domain = domain
 
     def columns(self, counts: tuple[int, int], domain: PupilDomain) -> tuple[np.ndarray, int]:
         """Return ξ, η and shares of the area of nodes over a domain, and on the edge, and how many these are."""
@@ -375,14 +377,12 @@ class PupilEnd:
         return counts
 
 
-WHOLE_PUPIL = PupilEnd()
-
-
 class PupilAtRims(PupilEnd):
     """Where the pupil of a lens ends at rims and holes, with ``clip``, or where rays are lost."""
 
     def __init__(self, lens: Lens, source: Source, clip: bool):
-        self.domain, self.edges = lens.pupil_domain, open_part(lens, source, clip)
+        super().__init__(lens.pupil_domain)
+        self.edges = open_part(lens, source, clip)
         self._rim, self._finer = clear_curve(lens, source, clip), 1 if all_reach(lens, source) else FINER
 
     def columns(self, counts: tuple[int, int], domain: PupilDomain) -> tuple[np.ndarray, int]:
@@ -428,38 +428,31 @@ def rotate_frequencies(fx: np.ndarray, fy: np.ndarray, turn_deg: float) -> tuple
     return cosine * fx - sine * fy, sine * fx + cosine * fy
 
 
-def pupil_of_fit(found: FittedPencil, turn_deg: float = 0.0, end: PupilEnd = WHOLE_PUPIL) -> FrequencyPupil:
+def pupil_of_fit(found: FittedPencil, turn_deg: float = 0.0, end: PupilEnd | None = None) -> FrequencyPupil:
     """Return the pupil that a fit describes, axes as `pupil_of_rays`. Raises GeometryError where its map folds."""
-    domain = found.level.basis.domain.turned(turn_deg)
 
-    def evaluate_fit(sampling: RayCounts) -> PupilSamples:
-        columns, rim = end.columns(sampling.counts, domain)
-        phase, fx, fy, weight = found.function.at(*columns[:2])
-        table = np.stack([*columns, weight, phase, *rotate_frequencies(fx, fy, turn_deg)])
-        return _samples(table, rim, domain, end.disc(sampling.counts))
+    def evaluate_fit(xi: np.ndarray, eta: np.ndarray) -> Data:
+        phase, fx, fy, weight = found.function.at(xi, eta)
+        return weight, phase, fx, fy
 
-    known = replace(_settle(evaluate_fit, ORDERS), rays=found.rays, edges=end.edges)
-    known = replace(known, residual_waves=float(np.hypot(known.residual_waves, found.error_waves)))
+    known = _settle(end or PupilEnd(found.level.basis.domain), turn_deg, evaluate_fit)
+    known = replace(known, rays=found.rays, residual_waves=hypot(known.residual_waves, found.error_waves))
     return behind_mask(known, found.mask, found.wavelength_um)
 
 
 def pupil_of_coefficients(
-    six: Coefficients, mask: PupilMask = CLEAR, turn_deg: float = 0.0, end: PupilEnd = WHOLE_PUPIL
+    six: Coefficients, mask: PupilMask = CLEAR, turn_deg: float = 0.0, end: PupilEnd | None = None
 ) -> FrequencyPupil:
     """Return the pupil of the six coefficients: the unit circle, frequencies −n'u'(ξ, η)/λ, uniform density.
 
     ``mask``: what else stands in it, as the source sees it. W counts the other way round than the mask's path.
     """
-    domain, scale = end.domain.turned(turn_deg), -float(six.reduced_slope) / float(six.wavelength_um)
+    scale = -float(six.reduced_slope) / float(six.wavelength_um)
 
-    def evaluate_six(sampling: RayCounts) -> PupilSamples:
-        columns, rim = end.columns(sampling.counts, domain)
-        xi, eta, _ = columns
-        phase, one = np.asarray(wavefront(six, xi, eta)), np.ones(xi.size)
-        table = np.stack([*columns, one, phase, *rotate_frequencies(scale * xi, scale * eta, turn_deg)])
-        return _samples(table, rim, domain, end.disc(sampling.counts))
+    def evaluate_six(xi: np.ndarray, eta: np.ndarray) -> Data:
+        return np.ones(xi.size), np.asarray(wavefront(six, xi, eta)), scale * xi, scale * eta
 
-    found = replace(_settle(evaluate_six, (EXACT,)), rays=2, edges=end.edges)
+    found = replace(_settle(end or PupilEnd(), turn_deg, evaluate_six, (EXACT,)), rays=2)
     return behind_mask(found, mask, -float(six.wavelength_um))
 
 
@@ -475,6 +468,21 @@ def _with_edge(inside: ClearNodes, edge: tuple[np.ndarray, np.ndarray], domain: 
     """Return ξ, η and shares of the area of nodes and behind them of points on the edge, and how many these are."""
     nodes = domain.over(inside).with_points(*edge)
     return np.stack([nodes.xi, nodes.eta, nodes.weight]), edge[0].size
+
+
+def _trace(
+    end: PupilEnd,
+    domain: PupilDomain,
+    turn_deg: float,
+    data_at: DataAt,
+    counts: tuple[int, int],
+) -> PupilSamples:
+    """Return the rays that arrive of those through nodes and the edge of a pupil, in turned axes."""
+    columns, rim = end.columns(counts, domain)
+    weight, phase, fx, fy = data_at(*columns[:2])
+    passed = np.isfinite(weight)
+    table = np.stack([*columns, weight, phase, *rotate_frequencies(fx, fy, turn_deg)])[:, passed]
+    return _samples(table, int(passed[-rim:].sum()), domain, end.disc(counts))
 
 
 def _samples(table: np.ndarray, rim: int, domain: PupilDomain, disc: tuple[int, int] | None) -> PupilSamples:
@@ -530,12 +538,12 @@ def _beside(cells: np.ndarray) -> np.ndarray:
     return beside
 
 
-def _settle(nodes_of: Callable[[RayCounts], PupilSamples], orders: tuple[RayCounts, ...]) -> FrequencyPupil:
-    """Return the pupil through nodes, of the first order whose residual is small enough."""
-    counts, traced, before = (0, 0), 0, 0.0
+def _settle(end: PupilEnd, turn_deg: float, data_at: DataAt, orders: Orders = ORDERS) -> FrequencyPupil:
+    """Return the pupil through rays, in turned axes, of the first order whose residual is small enough."""
+    domain, counts, traced, before = end.domain.turned(turn_deg), (0, 0), 0, 0.0
     for sampling in orders:
         if counts != sampling.counts:
-            nodes, counts = nodes_of(sampling), sampling.counts
+            nodes, counts = _trace(end, domain, turn_deg, data_at, sampling.counts), sampling.counts
             traced += nodes.traced
         found = _through(nodes, sampling.order)
         judged = sampling.order >= JUDGED_AT + (nodes.disc is None)  # beside lost rays one order later
@@ -550,7 +558,7 @@ def _settle(nodes_of: Callable[[RayCounts], PupilSamples], orders: tuple[RayCoun
         )
     if not found.residual_waves < MOST_RESIDUAL:
         raise GeometryError(UNFOLLOWED)
-    return replace(found, rays=traced)
+    return replace(found, rays=traced, edges=end.edges)
 
 
 def _through(nodes: PupilSamples, order: int) -> FrequencyPupil:
