@@ -199,7 +199,7 @@ WRONG = {
     "an axis that is none": lambda: p2sf.Camera(LENS).at(fields_deg=[0, 5]),
     "an R² for an error": lambda: p2sf.Scene(SCENE.sensor, rtol=5),
     "two limits": lambda: p2sf.Scene(SCENE.sensor, rtol=0.1, min_r2=0.99),
-    "a wavefront that is not square": lambda: p2sf.Pupil(np.zeros((8, 9)), 0.1, 550),
+    "a wavefront that is not square": lambda: p2sf.Pupil.from_opd(np.zeros((8, 9)), 0.1, 550),
     "a PSF in two rows": lambda: p2sf.fit_psf(np.zeros(9), na=0.1, wavelength_nm=550, pixel_um=1),
     "a limit of nothing": lambda: p2sf.Camera("achromat_f6").tolerances({"sharpness": 0.3}),
     "a number for a scheduler": lambda: p2sf.form_image(p2sf.plan(LENS, SCENE), PICTURE, scheduler=5),

@@ -83,33 +83,43 @@ def psf_of_opd(
     >>> p2sf.psf_of_opd(np.zeros((128, 128)), na=0.1, wavelength_nm=550)
     <Psf: opd, 64 × 64 samples of 1.375 µm, 550 nm, Strehl ratio 1, 98.8 % of the light in the window>
     """
-    for name, value in (("na", na), ("wavelength_nm", wavelength_nm), ("pixel_um", pixel_um)):
-        check_positive(name, value)
-    opd, clear = pupil_of_cells(opd_waves, amplitude)
-    critical_um = wavelength_nm / NM_PER_UM / (4 * na)
-    pitch = critical_um if pixel_um is None else float(pixel_um)
-    _check_window(len(opd), na / (wavelength_nm / NM_PER_UM), pixels, pitch)
-    # By Parseval, in units of the unaberrated peak; a cell cut by the rim transmits its share inside.
-    power = clear.sum() if amplitude is None else (clear**2).sum()
-    pupil = _Pupil(opd, clear, power / clear.sum() ** 2, na, wavelength_nm / NM_PER_UM)
-    psf = pixel_integrals.integrate(pupil.psf, pixels, pitch, critical_um, integrated)
-    given = {"cells": len(opd), "na": na, "wavelength_nm": wavelength_nm}
-    return warn_of_window(psf.with_figures(provenance={"wavefront": plain(given)}), 5)
+    check_positive("pixel_um", pixel_um)
+    cells = cells_of(opd_waves, na, wavelength_nm, amplitude)
+    return warn_of_window(psf_of_cells(cells, pixels, pixel_um, integrated), 5)
 
 
 @dataclass(frozen=True, eq=False)
-class _Pupil:
-    """A wavefront in waves and the amplitude on its cells; ``light``: Σ amplitude² over (Σ amplitude)²."""
+class Cells:
+    """A wavefront on the cells of a square grid over the pupil, (size, size) each, as `psf_of_opd` has it.
+
+    ``opd``: in waves, 0 where nothing passes. ``clear``: the amplitude that passes. ``light``: how much light does; of
+    a cell that the rim cuts, its covered part.
+    """
 
     opd: np.ndarray
     clear: np.ndarray
-    light: float
+    light: np.ndarray
     na: float
-    wavelength_um: float
+    wavelength_nm: float
+
+    @property
+    def wavelength_um(self) -> float:
+        """Return the wavelength, µm."""
+        return self.wavelength_nm / NM_PER_UM
+
+    @property
+    def spread(self) -> float:
+        """Return the frequency of the pupil's rim, cycles per µm."""
+        return self.na / self.wavelength_um
+
+    @property
+    def step(self) -> float:
+        """Return the frequency from one cell to the next, cycles per µm."""
+        return 2 * self.spread / len(self.opd)
 
     def psf(self, pixels: int, pixel_um: float) -> Psf:
         """Return the PSF at points."""
-        start, size, spread = perf_counter(), len(self.opd), self.na / self.wavelength_um
+        start, size, spread = perf_counter(), len(self.opd), self.spread
         cycles, opd, clear = spread * pixel_um, self.opd, self.clear
         if size % 2 == 0 and np.array_equal(opd, opd[:, ::-1]) and np.array_equal(clear, clear[:, ::-1]):
             intensity = opd_intensity(opd, clear, cycles, pixels, np.float64)
@@ -117,7 +127,7 @@ class _Pupil:
             frequency, axis = cycles * centres(size), centred_axis(pixels)
             field = matrix_dft(clear * np.exp(2j * np.pi * opd), frequency, frequency, axis, axis)
             intensity = np.abs(field / clear.sum()) ** 2
-        light = (lambda: self.light * (size / (2 * spread)) ** 2) if resolved(spread, pixel_um) else None
+        light = self.light_um2 if resolved(spread, pixel_um) else None
         psf = psf_of_intensity(intensity, pixel_um, self.wavelength_um, "opd", light, self._peak(intensity, pixel_um))
         return replace(
             psf,
@@ -126,18 +136,40 @@ class _Pupil:
             seconds=perf_counter() - start,
         )
 
+    def light_um2(self) -> float:
+        """Return ∫|field|²dx over the plane in µm² at unit unaberrated peak, by Parseval."""
+        return float(self.light.sum() / self.clear.sum() ** 2 / self.step**2)
+
     def _peak(self, intensity: np.ndarray, pixel_um: float) -> Callable[[], Peak]:
         return lambda: peak_of(intensity, pixel_um, self.waves, lambda _: None)
 
     @cached_property
     def waves(self) -> Waves:
         """Return the plane waves of the cells that transmit light, valid up to where their PSF repeats."""
-        size, spread = len(self.opd), self.na / self.wavelength_um
+        size, spread = len(self.opd), self.spread
         along, lit = spread * centres(size), self.clear > 0
         fy, fx = np.meshgrid(along, along, indexing="ij")
         amplitude = (self.clear * np.exp(2j * np.pi * self.opd))[lit] / self.clear.sum()
         blur = sqrt(2) * _steepest_step(self.opd, self.clear) * size / 2 / spread
         return Waves(amplitude, fx[lit], fy[lit], WHOLE, blur, reach_um=size / (2 * spread) / sqrt(2))
+
+
+def cells_of(opd_waves: ArrayLike, na: float, wavelength_nm: float, amplitude: ArrayLike | None) -> Cells:
+    """Return the cells of arrays; RequestError and SamplingError as `psf_of_opd`."""
+    check_positive("na", na)
+    check_positive("wavelength_nm", wavelength_nm)
+    opd, clear = pupil_of_cells(opd_waves, amplitude)
+    return Cells(opd, clear, clear if amplitude is None else clear**2, na, wavelength_nm)
+
+
+def psf_of_cells(cells: Cells, pixels: int, pixel_um: float | None, integrated: bool | None) -> Psf:
+    """Return the PSF of cells at points or as light per pixel; SamplingError as `psf_of_opd`."""
+    critical_um = cells.wavelength_um / (4 * cells.na)
+    pitch = critical_um if pixel_um is None else float(pixel_um)
+    _check_window(len(cells.opd), cells.spread, pixels, pitch)
+    psf = pixel_integrals.integrate(cells.psf, pixels, pitch, critical_um, integrated)
+    given = {"cells": len(cells.opd), "na": cells.na, "wavelength_nm": cells.wavelength_nm}
+    return psf.with_figures(provenance={"wavefront": plain(given)})
 
 
 def centres(size: int) -> np.ndarray:

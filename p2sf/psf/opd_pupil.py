@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from p2sf.arguments import check_arguments, number_list, real_array
-from p2sf.conventions import NM_PER_UM, UM_PER_MM
+from p2sf.conventions import UM_PER_MM
 from p2sf.disc.domain import WHOLE, ClearNodes
 from p2sf.disc.quadrature import cell_areas, even_count
 from p2sf.disc.zernike_terms import ZernikeOrder, zernike_terms, zernike_values
@@ -23,8 +23,8 @@ from p2sf.figures.measures import PARTS, Energy, LineSpread, Mtf
 from p2sf.figures.perfect import circle_contrast
 from p2sf.figures.transfer import OtfSlice, spreads
 from p2sf.parameters import check_positive
-from p2sf.psf.from_opd import centres, psf_of_opd, pupil_of_cells
-from p2sf.psf.result import Psf
+from p2sf.psf.from_opd import Cells, cells_of, centres, psf_of_cells
+from p2sf.psf.result import Psf, warn_of_window
 from p2sf.pupil.zernike_fit import USUAL_TERMS, ZernikeFit, decompose
 from p2sf.threads import one_blas_thread
 
@@ -34,70 +34,78 @@ MOST_SAMPLES = 64  # a side, of the PSF whose peak is looked for
 METHOD = "opd"
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, init=False)
 class Pupil:
     """A wavefront over a pupil, measured or imported, and its figures, which are of all light and need no window.
 
-    Parameters
-    ----------
-    opd_waves : array_like
-        W in waves on the cells of a square grid, (size, size), as `p2sf.psf_of_opd` has it; NaN is opaque.
-    na : float
-        Numerical aperture n'·sin u' of the image at the pupil's rim.
-    wavelength_nm : float
-        Wavelength, nm.
-    amplitude : array_like, optional
-        Amplitude that each cell lets through, same shape; how much of it the unit disc covers when not given.
-
-    Raises
-    ------
-    RequestError, SamplingError
-        As for `p2sf.psf_of_opd`.
+    `Pupil.from_opd` makes it of an array; it is not made by its own name, which raises RequestError.
 
     Examples
     --------
     >>> import numpy as np, p2sf
     >>> at = (2 * np.arange(128) - 127) / 128
     >>> spherical = 0.3 * (at**2 + at[:, None] ** 2) ** 2
-    >>> pupil = p2sf.Pupil(spherical, na=0.1, wavelength_nm=500)
+    >>> pupil = p2sf.Pupil.from_opd(spherical, na=0.1, wavelength_nm=500)
     >>> pupil.mtf([100, 200]).tangential.round(2), pupil.encircled_energy([5.0]).fraction.round(2)
     (array([0.54, 0.26]), array([0.83]))
     >>> round(pupil.strehl, 2), round(pupil.zernike(terms=11).marechal, 2)
     (0.72, 0.73)
     """
 
-    opd_waves: ArrayLike
-    na: float
-    wavelength_nm: float
-    amplitude: ArrayLike | None = None
+    cells: Cells
 
-    def __post_init__(self) -> None:
-        check_positive("na", self.na)
-        check_positive("wavelength_nm", self.wavelength_nm)
-        _ = self._cells
+    def __init__(self, *given: object, **named: object) -> None:
+        raise RequestError("a pupil is made by p2sf.Pupil.from_opd(opd_waves, na, wavelength_nm)")
 
+    @classmethod
+    @check_arguments
+    def from_opd(
+        cls, opd_waves: ArrayLike, na: float, wavelength_nm: float, amplitude: ArrayLike | None = None
+    ) -> "Pupil":
+        """Return the pupil of a wavefront that is given as an array.
+
+        Parameters
+        ----------
+        opd_waves : array_like
+            W in waves on the cells of a square grid, (size, size), as `p2sf.psf_of_opd` has it; NaN is opaque.
+        na : float
+            Numerical aperture n'·sin u' of the image at the pupil's rim.
+        wavelength_nm : float
+            Wavelength, nm.
+        amplitude : array_like, optional
+            Amplitude that each cell lets through, same shape; how much of it the unit disc covers when not given.
+
+        Returns
+        -------
+        Pupil
+            With ``psf``, ``strehl``, ``mtf``, ``encircled_energy``, ``line_spread`` and ``zernike``.
+
+        Raises
+        ------
+        RequestError, SamplingError
+            As for `p2sf.psf_of_opd`.
+        """
+        pupil = object.__new__(cls)
+        object.__setattr__(pupil, "cells", cells_of(opd_waves, na, wavelength_nm, amplitude))
+        return pupil
+
+    @check_arguments
+    @one_blas_thread
     def psf(self, pixels: int = 64, pixel_um: float | None = None, integrated: bool | None = None) -> Psf:
         """Return the PSF, as `p2sf.psf_of_opd` computes it."""
-        return psf_of_opd(
-            self.opd_waves,
-            self.na,
-            self.wavelength_nm,
-            amplitude=self.amplitude,
-            pixels=pixels,
-            pixel_um=pixel_um,
-            integrated=integrated,
-        )
+        check_positive("pixel_um", pixel_um)
+        return warn_of_window(psf_of_cells(self.cells, pixels, pixel_um, integrated), 5)
 
     @property
     def strehl(self) -> float:
         """Return the peak of the PSF over that of the same pupil without phase."""
-        found = self.psf(min(MOST_SAMPLES, 2 * len(self._cells[0])), integrated=False).strehl
+        found = self.psf(min(MOST_SAMPLES, 2 * len(self.cells.opd)), integrated=False).strehl
         assert isinstance(found, float)
         return found
 
     def zernike(self, basis: ZernikeOrder = "noll", terms: int = USUAL_TERMS) -> ZernikeFit:
         """Return the terms of the wavefront where light passes, as `p2sf.fit_zernike` does, weighted by the light."""
-        return fit_zernike(self._cells[0], self._light_of_cells, terms, basis)
+        return fit_zernike(self.cells.opd, self.cells.light, terms, basis)
 
     @one_blas_thread
     def mtf(self, frequency_per_mm: ArrayLike | None = None) -> Mtf:
@@ -120,7 +128,7 @@ class Pupil:
 
         Raises RequestError for a radius at which the PSF of these cells begins to repeat itself.
         """
-        most = 1 / (2 * self._step)
+        most = 1 / (2 * self.cells.step)
         given = np.linspace(0, most, RADII) if radius_um is None else np.abs(number_list("radius_um", radius_um))
         self._check_reach("radius_um", given, most)
         within, table = self._energy.within, np.linspace(0, most, RADII)
@@ -136,7 +144,7 @@ class Pupil:
 
         Raises RequestError for a position at which the PSF of these cells begins to repeat itself.
         """
-        most = 1 / (2 * self._step)
+        most = 1 / (2 * self.cells.step)
         given = np.linspace(-most, most, POINTS) if position_um is None else number_list("position_um", position_um)
         self._check_reach("position_um", given, most)
         (line_x, edge_x), (line_y, edge_y) = (
@@ -145,30 +153,13 @@ class Pupil:
         return LineSpread(given, line_x, line_y, edge_x, edge_y, self._along_y_centroid, METHOD, self._along_x_centroid)
 
     @cached_property
-    def _cells(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return the wavefront, 0 where nothing passes, and the amplitude."""
-        return pupil_of_cells(self.opd_waves, self.amplitude)
-
-    @cached_property
     def _field(self) -> np.ndarray:
-        opd, clear = self._cells
-        field: np.ndarray = clear * np.exp(2j * np.pi * opd)
+        field: np.ndarray = self.cells.clear * np.exp(2j * np.pi * self.cells.opd)
         return field
 
     @property
-    def _light_of_cells(self) -> np.ndarray:
-        """Return the light of each cell; one that the rim cuts lets its covered part through, as in `psf_of_opd`."""
-        clear = self._cells[1]
-        return clear if self.amplitude is None else clear**2
-
-    @property
     def _light(self) -> float:
-        return float(self._light_of_cells.sum())
-
-    @property
-    def _step(self) -> float:
-        """Return the spatial frequency from one cell to the next, cycles per µm."""
-        return 2 * self.na / (self.wavelength_nm / NM_PER_UM) / len(self._cells[0])
+        return float(self.cells.light.sum())
 
     @cached_property
     def _along_x_centroid(self) -> float:
@@ -181,17 +172,17 @@ class Pupil:
     def _centroid(self, axis: int) -> float:
         """Return the light's centroid along an axis, µm: the slope of the transfer function at no frequency."""
         before, after = np.moveaxis(self._field, axis, 0)[:-1], np.moveaxis(self._field, axis, 0)[1:]
-        return -float(np.angle(np.vdot(before, after))) / (2 * np.pi * self._step)
+        return -float(np.angle(np.vdot(before, after))) / (2 * np.pi * self.cells.step)
 
     @cached_property
     def _rms_um(self) -> float:
         """Return the RMS distance from the centroid of where the wavefront's slopes send light."""
         total = 0.0
         for axis in (0, 1):
-            wave, light = (np.moveaxis(part, axis, 0) for part in (self._cells[0], self._light_of_cells))
+            wave, light = (np.moveaxis(part, axis, 0) for part in (self.cells.opd, self.cells.light))
             both = light[1:] * light[:-1] > 0
             slope, weight = np.diff(wave, axis=0)[both], (light[1:] + light[:-1])[both]
-            place = -slope / self._step
+            place = -slope / self.cells.step
             total += float(weight @ (place - weight @ place / weight.sum()) ** 2 / weight.sum())
         return float(np.sqrt(total))
 
@@ -208,9 +199,9 @@ class Pupil:
         size = len(self._field)
         own, perfect = (_autocorrelation(np.moveaxis(part, axis, -1)) for part in (self._field, np.abs(self._field)))
         own[0] = perfect[0] = self._light
-        turn = np.exp(2j * np.pi * centroid_um * self._step * np.arange(size + 1))
+        turn = np.exp(2j * np.pi * centroid_um * self.cells.step * np.arange(size + 1))
         factor = self._disc_factor(axis) / self._light
-        return OtfSlice(self._step, own * turn * factor, perfect.real * factor, axis == 0)
+        return OtfSlice(self.cells.step, own * turn * factor, perfect.real * factor, axis == 0)
 
     @cached_property
     def _disc_error(self) -> float:
@@ -234,7 +225,7 @@ class Pupil:
     def _disc_factor(self, axis: int) -> np.ndarray:
         """Return what takes the cells' error away from a clear disc, 1 for what is none."""
         exact = circle_contrast(np.linspace(0, 1, len(self._field) + 1))
-        if not np.array_equal(self._cells[1], self._areas):
+        if not np.array_equal(self.cells.clear, self._areas):
             return np.ones_like(exact)
         disc = self._disc(axis)
         factor: np.ndarray = np.divide(exact, disc, out=np.ones_like(exact), where=disc > SMALLEST)
@@ -244,14 +235,14 @@ class Pupil:
     def _energy(self) -> EncircledLight:
         """Return the energy about the centroid up to where the PSF of the cells repeats itself."""
         place = np.pi * centres(len(self._field)) * len(self._field) / 2
-        top, centroid = 1 / (2 * self._step), (self._along_x_centroid, self._along_y_centroid)
+        top, centroid = 1 / (2 * self.cells.step), (self._along_x_centroid, self._along_y_centroid)
         across, up = (np.exp(1j * place * distance / top) for distance in centroid)
-        reach = np.hypot(place, place[:, None])[self._light_of_cells > 0].max()
+        reach = np.hypot(place, place[:, None])[self.cells.light > 0].max()
         circles = circles_of(even_count(float(reach) / (2 * np.pi)), WHOLE)
         # What cells bring that let a part of their light through.
         even = self._light - float(np.vdot(self._field, self._field).real)
         square = light_of_cells(self._field * across * up[:, None], circles)
-        return energy_on_circles(square, circles, top, self._step**2 / self._light, even)
+        return energy_on_circles(square, circles, top, self.cells.step**2 / self._light, even)
 
     def _check_reach(self, name: str, values: np.ndarray, most: float) -> None:
         if np.abs(values).max(initial=0.0) > most * (1 + 1e-9):

@@ -47,9 +47,9 @@ FEW_LINES = 45
 # Types of the core that say what phase, path or OPD light has over a pupil, as values, terms or series.
 HOLD_A_PHASE = set(
     """
-    Coefficients DesignedPupil Differentials ExactDatabase FittedDatabase FittedPencil FrequencyPupil NodeGrid OpenRays
-    Parts PointFit PointPupil Pupil PupilMap PupilNodes PupilSamples PupilStack PupilTable Rays
-    WavefrontMap Waves ZernikeFit _Pupil
+    Cells Coefficients DesignedPupil Differentials ExactDatabase FittedDatabase FittedPencil FrequencyPupil NodeGrid
+    OpenRays Parts PointFit PointPupil PupilMap PupilNodes PupilSamples PupilStack PupilTable Rays
+    WavefrontMap Waves ZernikeFit
     """.split()
 )
 PHASE_FIELDS = {"phase", "waves", "wavefront", "opd", "opd_waves", "path"}

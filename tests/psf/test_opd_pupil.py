@@ -10,7 +10,7 @@ from scipy.special import j0, j1
 import p2sf
 from p2sf.disc.quadrature import cell_areas
 from p2sf.disc.zernike_terms import zernike_terms, zernike_values
-from p2sf.errors import P2SFError
+from p2sf.errors import P2SFError, RequestError
 from p2sf.figures.energy import POINTS_AT_ONCE
 
 NA, NM = 0.1, 500.0
@@ -52,7 +52,7 @@ def energy(radius_um: float) -> float:
 
 
 def test_an_ideal_pupil_has_the_contrast_and_the_energy_of_airy():
-    pupil = p2sf.Pupil(np.zeros((SIZE, SIZE)), NA, NM)
+    pupil = p2sf.Pupil.from_opd(np.zeros((SIZE, SIZE)), NA, NM)
     nu = np.linspace(0, 1, 41)
     exact = 2 / pi * (np.arccos(nu) - nu * np.sqrt(1 - nu * nu))
     found = pupil.mtf(nu * 2000 * PER_UM)
@@ -67,7 +67,7 @@ def test_an_ideal_pupil_has_the_contrast_and_the_energy_of_airy():
 
 @pytest.mark.parametrize("wave", [spherical, coma])
 def test_contrast_is_the_overlap_of_two_pupils(wave):
-    pupil = p2sf.Pupil(wave(X, Y), NA, NM)
+    pupil = p2sf.Pupil.from_opd(wave(X, Y), NA, NM)
     nu = np.array([0.05, 0.2, 0.5, 0.8])
     found = pupil.mtf(nu * 2000 * PER_UM)
     for curve, along_y in ((found.tangential, True), (found.sagittal, False)):
@@ -75,7 +75,7 @@ def test_contrast_is_the_overlap_of_two_pupils(wave):
 
 
 def test_energy_is_that_of_the_hankel_transform():
-    found = p2sf.Pupil(spherical(X, Y), NA, NM).encircled_energy(RADII)
+    found = p2sf.Pupil.from_opd(spherical(X, Y), NA, NM).encircled_energy(RADII)
     np.testing.assert_allclose(found.fraction, [energy(radius) for radius in RADII], atol=found.predicted_error)
     assert energy(found.radius_50_um) == pytest.approx(0.5, abs=found.predicted_error)
     assert energy(found.radius_80_um) == pytest.approx(0.8, abs=found.predicted_error)
@@ -85,7 +85,7 @@ def test_energy_is_that_of_the_hankel_transform():
 
 def test_energy_and_lines_are_those_of_fine_samples():
     """Sums of a PSF in a wide window share neither the autocorrelation nor Bessel functions."""
-    pupil = p2sf.Pupil(coma(X, Y), NA, NM)
+    pupil = p2sf.Pupil.from_opd(coma(X, Y), NA, NM)
     fine = pupil.psf(512, 0.2)
     assert fine.energy > 0.98
     light, lines = pupil.encircled_energy([2.0, 5.0, 9.0]), pupil.line_spread([-3.0, 0.0, 1.5, 4.0])
@@ -100,7 +100,7 @@ def test_energy_and_lines_are_those_of_fine_samples():
 
 
 def test_a_tilt_moves_the_centroid_and_nothing_else():
-    still, moved = (p2sf.Pupil(spherical(X, Y) + tilt, NA, NM) for tilt in (0.0, 0.8 * X - 0.5 * Y))
+    still, moved = (p2sf.Pupil.from_opd(spherical(X, Y) + tilt, NA, NM) for tilt in (0.0, 0.8 * X - 0.5 * Y))
     one, other = (pupil.encircled_energy(RADII) for pupil in (still, moved))
     assert other.centroid_x_um == pytest.approx(-0.8 / PER_UM) and other.centroid_um == pytest.approx(0.5 / PER_UM)
     np.testing.assert_allclose(one.fraction, other.fraction, atol=1e-9)
@@ -112,7 +112,7 @@ def test_cells_with_an_amplitude_are_summed_one_by_one():
     opd, amplitude = 0.1 * rng.normal(size=(12, 12)), rng.uniform(0, 1, (12, 12))
     opd[4, 5] = np.nan
     field = np.where(np.isnan(opd), 0, amplitude * np.exp(2j * pi * np.nan_to_num(opd)))
-    found = p2sf.Pupil(opd, NA, NM, amplitude).mtf(np.array([0, 1, 5]) * 2000 * PER_UM / 12)
+    found = p2sf.Pupil.from_opd(opd, NA, NM, amplitude).mtf(np.array([0, 1, 5]) * 2000 * PER_UM / 12)
     sums = [sum(np.vdot(row[: 12 - lag], row[lag:]) for row in field) for lag in (0, 1, 5)]
     np.testing.assert_allclose(found.sagittal, np.abs(sums) / abs(sums[0]), atol=1e-12)
 
@@ -125,7 +125,7 @@ def test_energy_of_cells_is_the_sum_over_all_pairs(monkeypatch, points):
     light, wave = np.zeros((SIZE, SIZE)), rng.uniform(-0.2, 0.2, (SIZE, SIZE))
     light[rng.integers(0, SIZE, (2, 60)).tolist()] = 1
     light[[0, 0, -1, -1], [0, -1, 0, -1]] = 1
-    pupil, open_, step = p2sf.Pupil(wave, NA, NM, light), light > 0, 2 * PER_UM / SIZE
+    pupil, open_, step = p2sf.Pupil.from_opd(wave, NA, NM, light), light > 0, 2 * PER_UM / SIZE
     found = pupil.encircled_energy(1 / (2 * step) * np.array([0.05, 0.3, 0.7, 1.0]))
     x, y = PER_UM * X[open_], PER_UM * Y[open_]
     field = np.exp(2j * pi * (wave[open_] + x * found.centroid_x_um + y * found.centroid_um))
@@ -136,7 +136,7 @@ def test_energy_of_cells_is_the_sum_over_all_pairs(monkeypatch, points):
 
 
 def test_beyond_where_cells_repeat_the_psf_is_refused():
-    pupil = p2sf.Pupil(np.zeros((32, 32)), NA, NM)
+    pupil = p2sf.Pupil.from_opd(np.zeros((32, 32)), NA, NM)
     for call in (pupil.encircled_energy, pupil.line_spread):
         with pytest.raises(P2SFError):
             call([100.0])
@@ -159,10 +159,10 @@ def test_terms_that_made_a_wavefront_are_found(basis, hole):
 
 def test_rms_and_marechal_are_of_the_disc():
     opd = 0.05 * zernike_values(zernike_terms("noll", 11), X.ravel(), Y.ravel())[10].reshape(X.shape) + 0.7 * X
-    found = p2sf.Pupil(opd, NA, NM).zernike()
+    found = p2sf.Pupil.from_opd(opd, NA, NM).zernike()
     assert found.rms == pytest.approx(0.05, rel=5e-3) and found.waves[10] == pytest.approx(0.05)
     assert found.marechal == pytest.approx(np.exp(-((2 * pi * found.rms) ** 2)))
-    assert p2sf.Pupil(opd, NA, NM).strehl == pytest.approx(found.marechal, abs=5e-3)
+    assert p2sf.Pupil.from_opd(opd, NA, NM).strehl == pytest.approx(found.marechal, abs=5e-3)
     area = cell_areas(AT, AT, 2 / SIZE)
     mean = (area * opd).sum() / area.sum()
     assert found.rms_with_tilt == pytest.approx(np.sqrt((area * (opd - mean) ** 2).sum() / area.sum()))
@@ -171,8 +171,8 @@ def test_rms_and_marechal_are_of_the_disc():
 @pytest.mark.parametrize(
     "call",
     [
-        lambda: p2sf.Pupil(np.zeros((8, 8)), 0.0, NM),
-        lambda: p2sf.Pupil(np.zeros((8, 9)), NA, NM),
+        lambda: p2sf.Pupil.from_opd(np.zeros((8, 8)), 0.0, NM),
+        lambda: p2sf.Pupil.from_opd(np.zeros((8, 9)), NA, NM),
         lambda: p2sf.fit_zernike(np.zeros((8, 9))),
         lambda: p2sf.fit_zernike(np.zeros((4, 4)), terms=37),
         lambda: p2sf.fit_zernike(np.zeros((8, 8)), np.ones((4, 4))),
@@ -182,3 +182,9 @@ def test_rms_and_marechal_are_of_the_disc():
 def test_what_is_no_pupil_is_refused(call):
     with pytest.raises(P2SFError):
         call()
+
+
+def test_a_pupil_made_as_before_says_how_it_is_made_now():
+    for made in (lambda: p2sf.Pupil(np.zeros((8, 8)), NA, NM), lambda: p2sf.Pupil(opd_waves=np.zeros((8, 8)), na=NA)):
+        with pytest.raises(RequestError, match=r"p2sf\.Pupil\.from_opd\(opd_waves, na, wavelength_nm\)"):
+            made()

@@ -53,7 +53,7 @@ def databases(lens: p2sf.Lens, folder: Path) -> float:
 
 def arrays(opd: np.ndarray) -> tuple[float, float]:
     """Return figures of a wavefront of one's own."""
-    pupil = p2sf.Pupil(opd, na=0.1, wavelength_nm=550)
+    pupil = p2sf.Pupil.from_opd(opd, na=0.1, wavelength_nm=550)
     fitted: p2sf.PointFit = p2sf.fit_psf(np.asarray(pupil.psf(33, 0.5)), na=0.1, wavelength_nm=550, pixel_um=0.5)
     return pupil.strehl + float(p2sf.fit_zernike(opd, terms=11).marechal), float(fitted.r2[0])
 
