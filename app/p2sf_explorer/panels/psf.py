@@ -57,6 +57,7 @@ class PsfPanel:
         self.widget.bind(store, psf_scale=self.scale, psf_units=self.units)
         self.widget.add_tool(self.scale)
         self.widget.add_tool(self.units)
+        self.widget.quiet.add(self.scale, self.units)
         self.map = HeatMap("x, µm", Y_LABELS[1], self.widget)
         self.map.set_map(PSF_MAP)
         self.airy, self.arrow = (self.map.chart.add_curve(WHITE, width, 210) for width in (1, 2))

@@ -66,6 +66,7 @@ class PlayBar(QFrame):
         self.setObjectName("bar")
         self._store, self._part, self._builds = store, part, builds
         self.player, self.filming = Player(store, self), filming
+        self._grasped = "field_deg"
         self.turn = self._button("▶", "Play or pause (Space on a slider)", self.toggle)
         self.key = chooser(tuple(TITLES.items()), "Which slider moves", self)
         self.first, self.last, self.seconds = (self._edit(name) for name in ("from", "to", "seconds one way"))
@@ -151,9 +152,14 @@ class PlayBar(QFrame):
             Command("Film of random builds…", self.ask_film_of_builds, (), "Sweep"),
         )
 
+    def grasp(self, key: str) -> None:
+        """Note that a person has taken hold of the slider of this key, and let it be."""
+        self._grasped = key
+        self.player.pause_on(key)
+
     def toggle(self) -> None:
-        """Play or pause the state's slider, the field if it names none."""
-        self.player.toggle(self._store.state.playback.slider or "field_deg")
+        """Play or pause the state's slider; if it names none, that which a person moved last, the field at first."""
+        self.player.toggle(self._store.state.playback.slider or self._grasped)
 
     def put_away(self) -> None:
         """Pause, and name no slider any more."""

@@ -46,6 +46,7 @@ from p2sf_explorer.charts.overlay import Overlay
 from p2sf_explorer.i18n.tr import local, tr, unbroken
 from p2sf_explorer.state.state import State, entry
 from p2sf_explorer.store.store import Store
+from p2sf_explorer.widgets.quiet import QuietTools
 
 LIST_AIR = 24  # pixels beside the longest line of an open list
 PANEL_MIME = "application/x-p2sf-panel"  # of a panel's key while its title is dragged
@@ -97,6 +98,7 @@ class Card(QFrame):
 
     ``place_asked``: the panel is to stand on the "stage", in the "rail" or under the "tabs". ``apart_asked``: it is to
     have a window of its own, or to come back from it. ``theory_asked``: the handbook is to open at the panel's section.
+    ``quiet`` holds the tools that are seen only while the pointer or the focus is in the card.
     ``key`` is the panel's, which a drag of the title carries; ``smallest`` is the least size in pixels at scale 1.
     """
 
@@ -133,6 +135,8 @@ class Card(QFrame):
         self.apart.clicked.connect(self.apart_asked)
         for button in (self.to_stage, self.apart):
             self.corner.addWidget(button)
+        self.quiet = QuietTools(self)
+        self.quiet.add(self.to_stage, self.apart)
         self.head.addLayout(self.corner)
         self.under = QHBoxLayout()  # for the tools where they do not fit beside the title
         self.tools: list[QWidget] = []

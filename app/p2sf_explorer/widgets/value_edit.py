@@ -1,11 +1,11 @@
-"""A number with its unit to type into, a list of them, and the button that plays a number's slider."""
+"""A number with its unit to type into, and a list of them."""
 
 import re
 from collections.abc import Callable, Sequence
 
 from PySide6.QtCore import QEvent, QLocale, QSize, Qt, Signal
 from PySide6.QtGui import QFocusEvent, QKeyEvent, QKeySequence, QMouseEvent, QResizeEvent, QWheelEvent
-from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QLabel, QLineEdit, QSizePolicy, QToolButton, QWidget
+from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QLabel, QLineEdit, QSizePolicy, QWidget
 
 from p2sf.errors import P2SFError
 from p2sf_explorer.i18n.tr import decimal_separator, local, tr
@@ -15,17 +15,6 @@ from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import Chooser
 from p2sf_explorer.widgets.scrub import Scrub, claimed, notches
 from p2sf_explorer.widgets.typed import typed
-
-
-class PlayButton(QToolButton):
-    """A small ▶ beside a slider."""
-
-    def __init__(self, parent: QWidget | None = None):
-        super().__init__(parent)
-        self.setObjectName("play")
-        self.setText("▶")
-        self.setToolTip(tr("Play this slider (Space)"))
-
 
 STANDARD = QKeySequence.StandardKey
 EDITING = (STANDARD.Copy, STANDARD.Cut, STANDARD.Paste, STANDARD.SelectAll)

@@ -1,6 +1,6 @@
 """A row for each quantity, a name, an editable number and a slider, and the rows of what stands in the stop."""
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QToolButton, QVBoxLayout, QWidget
 
 from p2sf.disc.mask import CLEAR, PupilMask
@@ -14,10 +14,11 @@ from p2sf_explorer.state.limits import COUNTS, MASK
 from p2sf_explorer.state.scales import Stepped
 from p2sf_explorer.state.state import State, entry
 from p2sf_explorer.store.store import Store
+from p2sf_explorer.widgets.quiet import QuietTools
 from p2sf_explorer.widgets.readout import Readout
 from p2sf_explorer.widgets.slider import STEPS, Slider
 from p2sf_explorer.widgets.typed import typed
-from p2sf_explorer.widgets.value_edit import PlayButton, ValueEdit
+from p2sf_explorer.widgets.value_edit import ValueEdit
 
 
 class QuantityRow(QWidget):
@@ -32,9 +33,9 @@ class QuantityRow(QWidget):
         self.slider, self.edit, self.note = Slider(self), ValueEdit(self), Readout(self)
         self.slider.setAccessibleName(tr(quantity.title))
         self.edit.setAccessibleName(tr(quantity.title))
-        self.play = PlayButton(self)
-        self.play.setAccessibleName(tr("Play: {quantity}", quantity=tr(quantity.title)))
         self.buttons = [self._button(*button) for button in quantity.buttons]
+        self.quiet = QuietTools(self)
+        self.quiet.add(*self.buttons)
         self._scale: Scale | None = None
         self._limits: Ranges | None = None
         self._shown: tuple[float, Scale] | None = None
@@ -55,17 +56,9 @@ class QuantityRow(QWidget):
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
         column.addLayout(head)
-        line = QHBoxLayout()
-        line.setSpacing(0)
-        line.addWidget(self.slider, 1)
-        line.addWidget(self.play, 0, Qt.AlignmentFlag.AlignTop)
-        column.addLayout(line)
+        column.addWidget(self.slider)
         column.addWidget(self.note)
         self.note.setVisible(self.quantity is FIELD or self.quantity.ring is not None)
-        kept = self.play.sizePolicy()
-        kept.setRetainSizeWhenHidden(True)  # so that all sliders are of one length
-        self.play.setSizePolicy(kept)
-        self.play.setVisible(not self.counts)
 
     def _connect(self) -> None:
         self.slider.sliderPressed.connect(lambda: self.grasped.emit(self.quantity.key))  # first: it may end a drag
@@ -75,7 +68,6 @@ class QuantityRow(QWidget):
         self.slider.reset.connect(self.reset)
         if not self.counts:
             self.slider.swept.connect(lambda: self.swept.emit(self.quantity.key))
-        self.play.clicked.connect(lambda: self.swept.emit(self.quantity.key))
         self.edit.committed.connect(self._on_text)
         self.edit.reset.connect(self.reset)
         self.slider.cancelled.connect(self._store.cancel)

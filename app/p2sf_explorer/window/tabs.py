@@ -22,6 +22,7 @@ from p2sf_explorer.widgets.card import paint_chevron
 from p2sf_explorer.widgets.command import Command
 from p2sf_explorer.window.stage import PanelPlace
 
+QWIDGETSIZE_MAX = (1 << 24) - 1  # Qt's own: no limit
 OUT_PX = 40  # a tab dragged farther off the bar than this gets a window of its own
 ALL = "Every panel by its group (Alt+0)"
 SIZE = 720, 480
@@ -32,7 +33,7 @@ class Tabs(QTabWidget):
     """Every panel has a page; the bar shows those of one group, the buttons before it the groups, the menu all.
 
     ``stage_asked`` and ``detach_asked`` carry the panel that is to have the stage or a window of its own, ``dropped``
-    one whose title was dropped here. Where there is little room one button stands for all groups.
+    one whose title was dropped here. Where there is little room one button stands for all groups, or for all panels.
     """
 
     detach_asked = Signal(str)
@@ -44,7 +45,7 @@ class Tabs(QTabWidget):
         super().__init__(parent)
         self._groups = {entry.key: entry.group for entry in entries}
         self._last: dict[str, str] = {}
-        self._out = False
+        self._out = self._narrow = False
         self._elsewhere: tuple[str, ...] = ()
         self._pages = {entry.key: PanelPlace(self) for entry in entries}
         for entry in entries:
@@ -85,9 +86,17 @@ class Tabs(QTabWidget):
         for key, group in self._groups.items():
             if key not in self._elsewhere:
                 sizes[group] += bar.tabSizeHint(self.indexOf(self._pages[key])).width()
-        needed = self.buttons.wide() + max(sizes.values())
-        self.buttons.show_all(needed <= event.size().width())
+        longest, room = max(sizes.values()), event.size().width()
+        self.buttons.show_all(self.buttons.wide() + longest <= room)
+        self._narrow = self.buttons.least() + longest > room
+        bar.setMaximumWidth(0 if self._narrow else QWIDGETSIZE_MAX)
+        bar.setFocusPolicy(Qt.FocusPolicy.NoFocus if self._narrow else Qt.FocusPolicy.TabFocus)
+        self._name_front()
         super().resizeEvent(event)
+
+    def _name_front(self) -> None:
+        """Name the panel in front on the button for all where no tab does."""
+        self.buttons.name_panel(self.tabText(self.currentIndex()) if self._narrow else "")
 
     def commands(self) -> tuple[Command, ...]:
         """Return a command for each group of panels."""
@@ -133,6 +142,7 @@ class Tabs(QTabWidget):
         group = self._groups[self.current()]
         self._last[group] = self.current()
         self.buttons.mark(group)
+        self._name_front()
         for k in range(self.count()):
             key = self._key(k)
             self.setTabVisible(k, self._groups[key] == group and key not in self._elsewhere)
@@ -168,6 +178,7 @@ class GroupButtons(QWidget):
         super().__init__(parent)
         self._group = QButtonGroup(self)
         self.named: dict[str, QPushButton] = {}
+        self._panel = ""
         self._row = QHBoxLayout(self)
         self._row.setContentsMargins(0, 1, SPACE, 3)
         self._row.setSpacing(2)
@@ -192,6 +203,17 @@ class GroupButtons(QWidget):
         parts = [*self.named.values(), self.all]
         return sum(part.sizeHint().width() + self._row.spacing() for part in parts) + SPACE
 
+    def least(self) -> int:
+        """Return the width that the button for all groups takes with the longest name of one."""
+        words = max(self.fontMetrics().horizontalAdvance(button.text()) for button in self.named.values())
+        own = self.fontMetrics().horizontalAdvance(self.all.text())
+        return self.all.sizeHint().width() - own + words + SPACE
+
+    def name_panel(self, title: str) -> None:
+        """Name the button for all after the panel in front, translated already; "" for the group in front."""
+        self._panel = title
+        self._name_all()
+
     def show_all(self, shown: bool) -> None:
         """Show a button for each group, or only the one for all."""
         for button in self.named.values():
@@ -207,7 +229,7 @@ class GroupButtons(QWidget):
     def _name_all(self) -> None:
         """Name the button for all panels after the group in front where it stands alone."""
         group = next((name for name, button in self.named.items() if button.isChecked()), "")
-        words = tr(group if self._all_only and group else "All")
+        words = self._panel or tr(group if self._all_only and group else "All")
         if self.all.text() != words:
             self.all.setText(words)
             self.all.setAccessibleName(tr(ALL))

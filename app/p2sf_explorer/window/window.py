@@ -180,7 +180,9 @@ class MainWindow(QMainWindow):
         self.top.pin.clicked.connect(self.compare.turn)
         self.controls.autofocus.connect(self.commands.autofocus)
         self.controls.swept.connect(self.play.player.toggle)
-        self.controls.grasped.connect(self.play.player.pause_on)
+        self.controls.grasped.connect(self.play.grasp)
+        self.foot.play.clicked.connect(self.play.toggle)
+        self.play.player.turned.connect(self.foot.show_playing)
         mixer = self._panel("coefficients", CoefficientsPanel).bars
         mixer.swept.connect(lambda term: self.play.player.toggle(ADDED + term))
         self.store.changed.connect(self.refresh)
@@ -270,6 +272,7 @@ class MainWindow(QMainWindow):
             self.controls.show_state(state)
             self.compare.show_state(state)
             self.play.show_state(state)
+            self.foot.play.setVisible(self.play.isHidden())
             self._answers = self._answer(state)
         except P2SFError as error:
             self._show_none(state, error)

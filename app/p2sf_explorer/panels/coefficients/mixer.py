@@ -6,6 +6,7 @@ from PySide6.QtCore import QEvent, QPoint, QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import (
     QAccessible,
     QColor,
+    QEnterEvent,
     QFocusEvent,
     QHelpEvent,
     QKeyEvent,
@@ -222,7 +223,9 @@ class NumberEdit(ShortField):
 
 
 class Mixer(QWidget):
-    """Six painted rows. ``limit`` is the value of a full bar and of a slider's end: a round number of waves.
+    """Six painted rows; sliders and buttons are painted while pointer or focus is here, or one of them is in use.
+
+    ``limit`` is the value of a full bar and of a slider's end: a round number of waves.
 
     The rows share the keyboard focus: ↑ ↓ choose one, ← → and Page keys add waves, M mutes, S solos, Delete takes the
     added waves away, L locks the scale, Space sweeps, Return opens a field for a number.
@@ -287,6 +290,12 @@ class Mixer(QWidget):
         self.setMinimumHeight(theme.px(SMALLEST_PX))
         self.update()
 
+    @property
+    def tools_shown(self) -> bool:
+        """Return whether sliders, mute, solo and the lock are painted."""
+        used = self.locked or any(self.waves.values()) or any(self.on.values())
+        return used or self.underMouse() or self.hasFocus()
+
     def turn_lock(self) -> None:
         """Keep the scale of the bars as it is, or let it follow the coefficients again from the next ones on."""
         self.locked, self._background = not self.locked, None
@@ -321,10 +330,14 @@ class Mixer(QWidget):
         painter = QPainter(background)
         paint_scale(painter, places, theme, self.limit)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        paint_lock(painter, places.lock(), QColor(theme.accent if self.locked else theme.muted), self.locked)
+        shown = self.tools_shown
+        if shown:
+            paint_lock(painter, places.lock(), QColor(theme.accent if self.locked else theme.muted), self.locked)
         for number, name in enumerate(TERMS):
             focused = self.hasFocus() and number == self.row
             paint_names(painter, places, theme, number)
+            if not shown:
+                continue
             paint_slider(painter, places, theme, number, clamp(self.waves[name], self.limit), focused)
             for kind, letter, colour in LETTERS:
                 on = name in self.on.get(kind, ())
@@ -415,6 +428,16 @@ class Mixer(QWidget):
         self.choose(self.row)
 
     focusOutEvent = focusInEvent
+
+    def enterEvent(self, event: QEnterEvent) -> None:
+        """Show the sliders and buttons."""
+        self._background = None
+        self.update()
+
+    def leaveEvent(self, event: QEvent) -> None:
+        """Hide the sliders and buttons that are not in use."""
+        self._background = None
+        self.update()
 
     def event(self, event: QEvent) -> bool:
         """Define the part under the pointer."""

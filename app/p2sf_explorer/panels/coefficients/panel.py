@@ -47,6 +47,7 @@ class CoefficientsPanel:
         self.reset = self._button("Reset", RESET_TIP)
         self.reset.clicked.connect(lambda: store.update(**UNTOUCHED))
         self.widget.add_footer(self.free, self.presets, self.reset)
+        self.widget.quiet.add(self.free, self.presets, self.reset)
         self.widget.readout.linkActivated.connect(self._take_back)
         self._connect()
 

@@ -98,6 +98,7 @@ class LayoutPanel:
         self.widget.add_tool(self.larger)
         self.widget.add_tool(self.coloured)
         self.widget.add_tool(self.count)
+        self.widget.quiet.add(self.larger, self.coloured, self.count)
 
     def show(self, live: DrawnSetup) -> None:
         """Paint the lens if it has changed, rays and marks always."""
