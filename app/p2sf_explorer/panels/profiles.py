@@ -23,6 +23,8 @@ TIP = (
 )
 LOOKS = {"Airy": ("muted", 1), "along x": ("marginal", 2), "along y": ("chief", 2)}
 
+DETAILS = "R50 {half} µm; both of all light about its centroid; RMS of the rays {rms} µm; {method}"
+
 
 class ProfilesPanel(CurvesPanel):
     """Two sections and the Airy pattern; beside them the energy within a radius."""
@@ -36,7 +38,7 @@ class ProfilesPanel(CurvesPanel):
         self.widget.set_body(TurningRow((self.chart, self.energy), (5, 3), self.widget))
         self.late = LateAnswers(self.widget, answer, self._paint, self._say)
         self._live: Live | None = None
-        self._legend = ""
+        self._legend = self._details = ""
 
     def show(self, live: Live) -> None:
         """Paint the sections and the energy, which a worker computes where it is too slow for a frame."""
@@ -55,7 +57,7 @@ class ProfilesPanel(CurvesPanel):
 
     def _say(self, text: str) -> None:
         whose = "A: " if self._live and self._live.difference else ""
-        self.widget.set_readout(f"{self._legend} &nbsp; {whose}{text}")
+        self.widget.set_readout(f"{self._legend} &nbsp; {whose}{text}", self._details)
 
     def _show_sections(self, live: Live, view: ProfileCurves) -> None:
         curves = {"Airy": view.airy, "along x": view.along_x, "along y": view.along_y}
@@ -83,13 +85,8 @@ class ProfilesPanel(CurvesPanel):
         self.energy.set_range((0.0, half), signed_range(self._live, {"energy": view.energy}, (0.0, 1.04)), steady)
         self.energy.update()
         half_light, most, rms = (f"{radius:.3g}" for radius in view.radii_um)
-        return Message(
-            "R50 {half} µm, R80 {most} µm of all light about its centroid; RMS of the rays {rms} µm; {method}",
-            half=half_light,
-            most=most,
-            rms=rms,
-            method=view.method,
-        )
+        self._details = said(Message(DETAILS, half=half_light, rms=rms, method=view.method))
+        return Message("R80 {most} µm", most=most)
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""

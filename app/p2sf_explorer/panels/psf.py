@@ -36,7 +36,7 @@ QUALITIES = ("preview", "settled")
 WITHIN = 0.5**0.5  # of a circle's radius: half the side of the square in it
 WHITE = "#ffffff"  # on the dark ground of the map in both themes
 ARROW = np.array([[0.86, 0.86, 0.83, 0.86, 0.89], [0.74, 0.92, 0.84, 0.92, 0.84]])
-Y_LABELS = {1: "y, µm (towards the field)", -1: "y, µm (towards the axis)"}  # by the sign of the image height
+Y_LABELS = {1: "y, µm (outwards)", -1: "y, µm (inwards)"}  # by the sign of the image height
 R_SQUARED_TIP = (
     "R² compares with the Huygens sum of exact rays, or with spherical waves from the exit pupil where plane ones miss "
     "those by more than 0.001; it is predicted until that sum is done, then measured."
@@ -48,7 +48,7 @@ TIP = "Point spread function: the light of one point source on the sensor, |FT{P
 
 
 class PsfPanel:
-    """A heat map with the Airy circle, an arrow towards the field, and a badge with method and time."""
+    """A heat map with the Airy circle, an arrow towards the field, and a badge with method and R²."""
 
     def __init__(self, store: Store):
         self.widget = Card("PSF", TIP)
@@ -158,9 +158,9 @@ class PsfPanel:
         self.arrow.set_data((left + right) / 2 + shown * ARROW[0], (low + high) / 2 + shown * side * ARROW[1])
 
     def show_badge(self, live: Live, r_squared: float | None, reference: str = REFERENCE) -> None:
-        """Show method, times and R² against the ``reference``: measured where it is known, else predicted.
+        """Show method and R² against the ``reference``: measured where it is known, else predicted.
 
-        The times are the last ones of a preview, while a slider moves, and of a settled picture. A prediction below
+        The tooltip has the last times of a preview, while a slider moves, and of a settled picture. A prediction below
         the R² asked for is a caution.
         """
         psf = live.psf
@@ -171,11 +171,11 @@ class PsfPanel:
         self._times[live.quality] = significant(1e3 * psf.seconds, 2)
         measured = None if live.setup.altered or psf.method == "geometric" else r_squared
         times = {name: self._times[name] for name in QUALITIES if name in self._times}
-        whole, short = badge_words(live, times, measured, reference)
+        whole, short = badge_words(live, measured, reference)
         allowed = 1 - live.state.optics.tolerance
         unsure = (measured is None and (psf.predicted_error or 0.0) > allowed) or vectors_count(live)
         self.badge.set_text(whole, "warning" if unsure else "text", short)
-        self.badge.setToolTip("\n".join((whole, live.why.text(WINDOW), *tip_words(live))))
+        self.badge.setToolTip("\n".join((f"{whole} · {times_words(times)}", live.why.text(WINDOW), *tip_words(live))))
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
@@ -183,14 +183,11 @@ class PsfPanel:
         self.badge.restyle(theme)
 
 
-def badge_words(
-    live: Live, times: dict[str, str], r_squared: float | None, reference: str = REFERENCE
-) -> tuple[str, str]:
+def badge_words(live: Live, r_squared: float | None, reference: str = REFERENCE) -> tuple[str, str]:
     """Return how the picture was made, whole, and short where there is little room."""
     before = tuple(filter(None, (live.side, tr("what-if") if live.setup.altered else "")))
     method, r2 = live.psf.method, "" if r_squared is None else written_r_squared(r_squared)
-    whole = (*before, tr(METHOD_WORDS.get(method, method)), times_words(times))
-    short = (*before, tr(SHORT_WORDS.get(method, method)), f"{'/'.join(times.values())} ms")
+    whole, short = (*before, tr(METHOD_WORDS.get(method, method))), (*before, tr(SHORT_WORDS.get(method, method)))
     if r2:
         plane = reference == REFERENCE
         against = tr("R² {r} vs Huygens", r=r2) if plane else tr("R² {r} vs spherical waves", r=r2)

@@ -332,12 +332,12 @@ class Card(QFrame):
         """Put the picture under the title line."""
         self.column.addWidget(widget, 1)
 
-    def set_readout(self, text: str) -> None:
-        """Show a line of numbers, as it is; its tooltip has the whole of it where it does not fit."""
+    def set_readout(self, text: str, details: str = "") -> None:
+        """Show a line of numbers, as it is; its tooltip has the whole of it, and ``details``."""
         text = local(text)
+        self.readout.setToolTip(f"{text}<br>{local(details)}" if details else text)
         if self.readout.text() != text:
             self.readout.setText(text)
-            self.readout.setToolTip(text)
             if self.head.indexOf(self.readout) >= 0:  # it goes back there when the card is resized
                 self._fit_head()
 

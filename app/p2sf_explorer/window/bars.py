@@ -1,4 +1,4 @@
-"""The bar above (lens, method, undo, snapshot, theme), the line below (warnings, facts), the banner for refusals."""
+"""The bar above (lens, method, undo, snapshot, theme), the line below (warnings), the banner for refusals."""
 
 from collections.abc import Callable, Sequence
 from functools import partial
@@ -11,27 +11,22 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QMenu, QToolButton, Q
 from p2sf.errors import P2SFError
 from p2sf.messages import Message
 from p2sf.psf.methods import AUTO, METHODS
-from p2sf_explorer.charts.painting import width_of
-from p2sf_explorer.charts.theme import LIGHT, Tokens
+from p2sf_explorer.charts.theme import Tokens
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr, unbroken
 from p2sf_explorer.state.limits import CHOICES
-from p2sf_explorer.state.scales import with_sign
 from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.card import combo_of, select
 from p2sf_explorer.widgets.exactness_slider import ExactnessButton
-from p2sf_explorer.widgets.readout import SIZE, Readout
+from p2sf_explorer.widgets.readout import Readout
 from p2sf_explorer.window import fold
 from p2sf_explorer.window.lens_cards import shown_title
 from p2sf_explorer.window.lens_chooser import LensChooser
-from p2sf_explorer.window.no_answer import UNKNOWN
 from p2sf_explorer.window.workspace_bar import WorkspaceBar
 
 GAP = 6  # pixels at scale 1 between two parts of the bar
-FACTS_PX, SHORT_FACTS_PX = 490, 230  # widths of the figures at the right of the status line, at scale 1
-MARGINS_PX = 16  # about both parts of the status line and between them
 METHOD_WORDS = {AUTO: AUTO} | {method.name: str(method.words) for method in METHODS if method.name in CHOICES["method"]}
 METHOD_TIP = (
     "Method: what describes the PSF. auto takes the cheapest method whose predicted R² against Huygens is good enough."
@@ -69,7 +64,7 @@ class TopBar(QFrame):
         self.method.activated.connect(lambda: store.update(method=self.method.currentData()))
         self.undo = self._tool("↶", "Undo: take back one step (Ctrl+Z)", store.undo)
         self.redo = self._tool("↷", "Redo: take the step again (Ctrl+Shift+Z)", store.redo)
-        self.pin = self._tool("Pin B", "Pin what is on screen as B, to compare with it, or unpin it (Ctrl+B)", None)
+        self.pin = self._tool("A | B", "Pin what is on screen as B, to compare with it, or unpin it (Ctrl+B)", None)
         self.pin.setCheckable(True)
         self.snapshot = self._tool("Snapshot", "Save the PSF, a picture, or the state (Ctrl+E)", None)
         self.more = self._tool("More", "Report, command palette, colours, theme, language", None)
@@ -191,61 +186,37 @@ class TopBar(QFrame):
 
 
 class StatusLine(QWidget):
-    """Warnings at the left, facts at the right: without times where the warnings need that room."""
+    """Warnings, and what was done."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.warning = Readout(self, colour="warning")
-        self.facts = Readout(self, align=Qt.AlignmentFlag.AlignRight)
-        self.warning.ground = self.facts.ground = "window"
+        self.warning.ground = "window"
         row = QHBoxLayout(self)
         row.setContentsMargins(4, 0, 4, 0)
         row.addWidget(self.warning, 1)
-        row.addWidget(self.facts)
-        self._theme, self._facts = LIGHT, ("", "")
 
-    def resizeEvent(self, event: QResizeEvent) -> None:
-        """Divide the width anew."""
-        super().resizeEvent(event)
-        self._fit()
-
-    def _fit(self) -> None:
-        """Give the figures one of two widths: with every other one the window would be laid out again."""
-        needed = width_of(self.warning.text(), self._theme.px(SIZE)) + self._theme.px(FACTS_PX + MARGINS_PX)
-        short = needed > self.width() and bool(self._facts[1])
-        self.facts.setFixedWidth(self._theme.px(SHORT_FACTS_PX if short else FACTS_PX))
-        self.facts.set_text(self._facts[short])
-
-    def show_live(self, live: Live, frame_ms: float | None) -> None:
-        """Show the warnings and figures of an answer."""
+    def show_live(self, live: Live) -> None:
+        """Show the warnings of an answer."""
         sentences = [said(warning) for warning in live.warnings]
         text = "   ".join(f"⚠ {sentence}" for sentence in sentences)
         if self.warning.text() != text:
             self.warning.set_text(text, "warning", shorten(sentences))
             self.warning.setToolTip("\n".join(sentences))
-        figures = facts(live, frame_ms)
-        self._facts = " · ".join(figures), " · ".join(figures[:2])
-        self._fit()
 
     def show_none(self, why: Message | P2SFError) -> None:
-        """Show why there is no answer, for longer than the banner does, and no figures."""
+        """Show why there is no answer, for longer than the banner does."""
         words = said(why)
         self.warning.set_text(f"⚠ {words}", "warning")
         self.warning.setToolTip(words)
-        self._facts = UNKNOWN, UNKNOWN
-        self._fit()
 
     def say(self, message: Message | P2SFError) -> None:
         """Show a message until the next answer; only what went wrong is in the colour of warnings."""
         self.warning.set_text(said(message), "warning" if isinstance(message, P2SFError) else "text")
-        self._fit()
 
     def restyle(self, theme: Tokens) -> None:
         """Take the colours of a theme."""
         self.warning.restyle(theme)
-        self.facts.restyle(theme)
-        self._theme = theme
-        self._fit()
 
 
 def shorten(sentences: Sequence[str]) -> tuple[str, ...]:
@@ -257,16 +228,6 @@ def shorten(sentences: Sequence[str]) -> tuple[str, ...]:
             short[number] = f"{head} …"
             lines.append("   ".join(f"⚠ {words}" for words in short))
     return tuple(lines)
-
-
-def facts(live: Live, frame_ms: float | None) -> tuple[str, ...]:
-    """Return the figures at the right: image height, aperture, then times."""
-    c = live.setup.coefficients
-    parts = [tr("image height {h} mm", h=with_sign(float(c.image_height), 3)), f"NA {live.setup.cone.na:.4f}"]
-    parts.append(tr("{ms} ms computing", ms=f"{live.milliseconds['all']:.1f}"))
-    if frame_ms is not None:
-        parts.append(tr("{ms} ms/frame", ms=f"{frame_ms:.1f}"))
-    return tuple(parts)
 
 
 class Banner(QFrame):

@@ -228,8 +228,8 @@ class Controls(QWidget):
         """Show what follows from the state: heights, sensor position, figures."""
         height = live.setup.object_y_mm
         image = float(live.setup.coefficients.image_height)
-        object_text = tr("object at infinity") if height is None else tr("object {h} mm", h=with_sign(height, 2))
-        self.rows["field_deg"].show_note(object_text + " · " + tr("image {h} mm", h=with_sign(image, 3)))
+        object_text = () if height is None else (tr("object {h} mm", h=with_sign(height, 2)),)
+        self.rows["field_deg"].show_note(" · ".join((*object_text, tr("image {h} mm", h=with_sign(image, 3)))))
         for quantity in RING_QUANTITIES:
             self.rows[quantity.key].show_note(said(ring_note(live, quantity.ring or "zoom")))
         apart = live.state.compare.shown != "a"  # B is on screen too, and this column stays A's

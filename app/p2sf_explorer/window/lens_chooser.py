@@ -39,6 +39,7 @@ WIDE, NARROW = 560, 110
 CELL, PICTURE = QSize(254, 172), 74
 COLUMNS, EDGES, HEIGHT = 4, 44, 4 * 172 + 48  # margins, frame and the scroll bar stand beside the columns
 ModelIndex = QModelIndex | QPersistentModelIndex
+TIP = "Choose a shipped lens (Ctrl+L); for files use Open (Ctrl+O)"
 ALIGN = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop
 
 
@@ -50,7 +51,7 @@ class LensChooser(QPushButton):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setAccessibleName(tr("Lens"))
-        self.setToolTip(tr("Choose a shipped lens (Ctrl+L); for files use Open (Ctrl+O)"))
+        self.setToolTip(tr(TIP))
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
         self.setObjectName("lens")
         self._name, self._title, self._theme = "", "", LIGHT
@@ -62,7 +63,7 @@ class LensChooser(QPushButton):
         return self._name
 
     def show_lens(self, name: str, shown_title: str, theme: Tokens) -> None:
-        """Show a lens by its title."""
+        """Show a lens by its title, as far as its first comma; the tooltip has the whole."""
         if theme.scale != self._theme.scale:
             self.updateGeometry()
         self._theme = theme
@@ -70,6 +71,7 @@ class LensChooser(QPushButton):
             self._name, self._title = name, tr(shown_title)
             self._fit()
             self.setAccessibleDescription(shown_title)
+            self.setToolTip(f"{self._title}\n{tr(TIP)}")
 
     def sizeHint(self) -> QSize:
         """Return a width that holds most titles."""
@@ -86,7 +88,7 @@ class LensChooser(QPushButton):
 
     def _fit(self) -> None:
         room = self.width() - self._theme.px(34)
-        self.setText(self.fontMetrics().elidedText(self._title, Qt.TextElideMode.ElideRight, room))
+        self.setText(self.fontMetrics().elidedText(self._title.partition(",")[0], Qt.TextElideMode.ElideRight, room))
 
     def open_gallery(self) -> None:
         """Open the gallery under the button, the present lens chosen."""

@@ -3,10 +3,9 @@
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from time import perf_counter
 from typing import TYPE_CHECKING, TypeVar
 
-from PySide6.QtCore import QSize, Qt, QTimer
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import (
     QCloseEvent,
     QDragEnterEvent,
@@ -105,7 +104,6 @@ class MainWindow(QMainWindow):
         self.store = Store(state or State(), self)
         self.live: Live | None = None
         self._answers: Answers | None = None
-        self.frame_ms: float | None = None
         self.display = place_panels(self.store.state.display, tuple(PANELS))
         self._placed_from: Display | None = None
         self._theme: Tokens = self._tokens(self.store.state)
@@ -264,7 +262,6 @@ class MainWindow(QMainWindow):
 
     def refresh(self, state: State) -> None:
         """Compute the answer for a state and paint it; where there is none, cover what belongs to another one."""
-        begun = perf_counter()
         self.memory_trim.touch()
         self._restyle(state)
         self._bring_up(state)
@@ -287,10 +284,9 @@ class MainWindow(QMainWindow):
         for key in self._visible():
             paint(self.panels[key], key, live)
         self._show_second(self._answers.beside)
-        self.status.show_live(live, self.frame_ms)
+        self.status.show_live(live)
         self._sum(state, self._answers.pending)
         self.measuring.watch(live)
-        QTimer.singleShot(0, lambda: self._on_painted(begun))
 
     def _show_second(self, beside: Live | None) -> None:
         """Show B beside A on the stage, or A alone there."""
@@ -407,9 +403,6 @@ class MainWindow(QMainWindow):
 
         card = card_in_hand(self, self.panels[self.display.stage].widget)
         self.floating.toggle(next(key for key, panel in self.panels.items() if panel.widget is card))
-
-    def _on_painted(self, begun: float) -> None:
-        self.frame_ms = 1e3 * (perf_counter() - begun)
 
     def is_busy(self) -> bool:
         """Return whether anything is still computed in the background."""

@@ -48,7 +48,7 @@ def test_the_fold_hides_and_shows_everything_below_it(folded, qtbot):
     assert not [name for name, part in below(folded).items() if part.isVisible()]
     few = count(folded)
     qtbot.mouseClick(folded.controls.more, Qt.MouseButton.LeftButton)
-    assert all(part.isVisible() for part in below(folded).values()) and count(folded) >= few + 10
+    assert all(part.isVisible() for part in below(folded).values()) and count(folded) >= few + 9
     qtbot.keyClick(folded, Qt.Key.Key_F8, Qt.KeyboardModifier.ControlModifier)
     assert count(folded) == few
 

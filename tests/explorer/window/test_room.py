@@ -1,5 +1,7 @@
 """Little room, odd lenses and refusals: what is shown stays whole, sensible and in the window's own words."""
 
+from math import inf
+
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
@@ -16,7 +18,6 @@ from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import default_state, load, paraxial_setup, shipped_names, with_lens
 from p2sf_explorer.i18n.language import set_language
 from p2sf_explorer.i18n.messages import said
-from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.panels.lens_table.panel import LensTablePanel
 from p2sf_explorer.state.panels import REGISTRY
 from p2sf_explorer.state.state import new_state
@@ -97,7 +98,8 @@ def test_what_is_asked_first_is_seen_without_scrolling(only_window, language):
         made.show()
         QApplication.processEvents()
         facts, area = made.controls.facts, made.controls.figures
-        for name in ("Strehl ratio", "RMS wavefront", "Focal length f′", "Working f-number"):
+        made.store.update(depth_mm=500.0, caption=())
+        for name in ("Strehl ratio", "RMS wavefront", "Focal length", "Working f-number"):
             row = [row[0] for row in facts.rows].index(name)
             top = facts.mapTo(area.viewport(), facts._room(row).toRect().topLeft()).y()
             assert 0 <= top <= area.viewport().height() - facts.row, name
@@ -110,15 +112,15 @@ def test_what_is_asked_first_is_seen_without_scrolling(only_window, language):
         set_language("en")
 
 
-def test_times_make_room_for_warnings(window):
-    window.resize(1280, 800)
-    QApplication.processEvents()
-    status = window.status
-    usual = status.facts.width()
-    assert tr("{ms} ms computing", ms="").strip() in status.facts.text()
-    window.store.update(lens="wide_angle_35", depth_mm=500.0, field_deg=31.0, method="seidel")
-    assert len(window.live.warnings) > 1 and status.facts.width() < usual
-    assert status.facts._cut() == status.facts.text() and " · NA " in status.facts.text()
+def test_no_figure_stands_beside_the_controls_and_in_the_caption(window):
+    """At infinity the working f-number is that of the slider; at 500 mm it is larger by the magnification."""
+    names = lambda: {name for name, *_ in window.controls.facts.rows}  # noqa: E731
+    window.store.update(depth_mm=inf)
+    assert names() == {"Focal length"}
+    window.store.update(depth_mm=500.0)
+    assert names() == {"Focal length", "Working f-number"}
+    window.store.update(caption=("lens", "rms"))
+    assert names() == {"Focal length", "Working f-number", "Strehl ratio"}
 
 
 def test_a_colour_bar_widens_for_its_longest_label_and_keeps_that_room(qapp):
@@ -180,7 +182,7 @@ def test_tools_that_do_not_fit_beside_the_title_stand_under_it(qtbot):
 
 
 def test_a_label_that_is_too_long_leaves_out_what_stands_in_brackets(qapp):
-    label = "y, µm (towards the field)"
+    label = "y, µm (outwards)"
     assert fitting(label, 500) == label
     assert fitting(label, width_of(label) - 1) == "y, µm"
     assert fitting(label, width_of("y, µm") - 1) == "y"

@@ -13,6 +13,7 @@ from p2sf.paraxial.first_order import cardinal_points, image_distance, magnifica
 from p2sf.paraxial.pupils import Stop, f_number, pupils
 from p2sf.paraxial.seidel import coefficients
 from p2sf.raytrace.focusing import focused_vergence
+from p2sf_explorer.compute.caption import caption
 from p2sf_explorer.compute.live import Live, View
 from p2sf_explorer.compute.setup import ParaxialSetup
 from p2sf_explorer.state.scales import MM_PER_UNIT, significant
@@ -40,10 +41,10 @@ EXIT_TIP = "The stop seen from the sensor: its diameter, and its place from the 
 
 
 def rows(live: Live) -> tuple[Row, ...]:
-    """Return what a person asks first, the picture's own figures before the lens's; *First order* has the others."""
+    """Return what a person asks first and the caption does not say; *First order* has the others."""
     s = live.setup
     na = s.cone.na
-    return (
+    every = (
         (
             "Strehl ratio",
             NONE
@@ -56,14 +57,16 @@ def rows(live: Live) -> tuple[Row, ...]:
             Message("{value} λ", value=Number(significant(live.pupil.rms, 3))),
             "Root mean square of the wavefront over the pupil, without piston and tilt, which do not blur.",
         ),
-        ("Peak of the PSF", _peak(live), "Where it is on the sensor: x and y from the chief ray."),
-        ("Focal length f′", focal_length(s), "Effective focal length f′ = −1/C of the system matrix."),
+        ("Focal length", focal_length(s), "Effective focal length f′ = −1/C of the system matrix."),
         (
             "Working f-number",
             aperture(0.5 / na if na else inf),
             "Working f-number 1/(2 NA) at this depth.",
         ),
     )
+    told = caption(live)
+    known = {"Strehl ratio": "strehl" in told, "RMS wavefront": "rms" in told}
+    return tuple(row for row in every if not known.get(row[0]) and str(row[1]) != told.get("f_number"))
 
 
 def in_each_meridian(setup: ParaxialSetup, figure: Callable[[Lens], Message]) -> Message:
@@ -290,6 +293,7 @@ def source_rows(live: Live) -> tuple[Row, ...]:
             length(image_height(s)),
             "y of the paraxial chief ray on the sensor; in focus, the magnification times the object height.",
         ),
+        ("Peak of the PSF", _peak(live), "Where it is on the sensor: x and y from the chief ray."),
     )
 
 

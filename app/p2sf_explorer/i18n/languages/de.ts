@@ -85,6 +85,15 @@
 <message><source>Open my lens</source><translation>Mein Objektiv öffnen</translation></message>
 <message><source>First picture, and where to begin</source><translation>Erstes Bild, und wo es losgeht</translation></message>
 <message><source>One star, as this lens shows it {angle}° off its axis. Drag Field: at 0° the star is round.</source><translation>Ein Stern, wie ihn dieses Objektiv {angle}° neben der Achse zeigt. Feld auf 0° ziehen: Er ist rund.</translation></message>
+<message><source>Play the slider that moved last (Ctrl+Space; Space on a slider plays that one)</source><translation>Den zuletzt bewegten Regler abspielen (Strg+Leertaste; Leertaste auf einem Regler spielt diesen)</translation></message>
+<message><source>R80 {most} µm</source><translation>R80 {most} µm</translation></message>
+<message><source>R50 {half} µm; both of all light about its centroid; RMS of the rays {rms} µm; {method}</source><translation>R50 {half} µm; beide für alles Licht um seinen Schwerpunkt; RMS der Strahlen {rms} µm; {method}</translation></message>
+<message><source>marginal</source><translation>Randstrahlen</translation></message>
+<message><source>chief</source><translation>Hauptstrahl</translation></message>
+<message><source>Focal length</source><translation>Brennweite</translation></message>
+<message><source>y, µm (outwards)</source><translation>y, µm (nach außen)</translation></message>
+<message><source>y, µm (inwards)</source><translation>y, µm (nach innen)</translation></message>
+<message><source>A | B</source><translation>A | B</translation></message>
 <message><source>Lessons with pictures, three minutes each</source><translation>Lektionen mit Bildern, je drei Minuten</translation></message>
 <message><source>List of lessons…</source><translation>Liste der Lektionen …</translation></message>
 <message><source>Made on {date}</source><translation>Erstellt am {date}</translation></message>
@@ -794,7 +803,6 @@
 <message><source>Pictures (*.png *.tif *.tiff)</source><translation>Bilder (*.png *.tif *.tiff)</translation></message>
 <message><source>Pictures of points (*.png *.tif *.tiff *.jpg *.jpeg *.fits *.fit *.npy *.npz *.txt)</source><translation>Bilder von Punkten (*.png *.tif *.tiff *.jpg *.jpeg *.fits *.fit *.npy *.npz *.txt)</translation></message>
 <message><source>Picture…</source><translation>Bild …</translation></message>
-<message><source>Pin B</source><translation>B merken</translation></message>
 <message><source>Pin a marker here</source><translation>Hier eine Marke setzen</translation></message>
 <message><source>Pin what is on screen as B, or take B away</source><translation>Das Gezeigte als B merken, oder B entfernen</translation></message>
 <message><source>Pin what is on screen as B, to compare with it, or unpin it (Ctrl+B)</source><translation>Das Gezeigte als B merken, um damit zu vergleichen, oder B entfernen (Strg+B)</translation></message>
@@ -812,8 +820,6 @@
 <message><source>Plans</source><translation>Pläne</translation></message>
 <message><source>Play or pause (Space on a slider)</source><translation>Abspielen oder anhalten (Leertaste auf einem Regler)</translation></message>
 <message><source>Play or pause the last slider</source><translation>Letzten Regler abspielen oder anhalten</translation></message>
-<message><source>Play this slider (Space)</source><translation>Diesen Regler abspielen (Leertaste)</translation></message>
-<message><source>Play: {quantity}</source><translation>Abspielen: {quantity}</translation></message>
 <message><source>Plot</source><translation>Diagramm</translation></message>
 <message><source>Plot: {left} over {bottom}</source><translation>Diagramm: {left} über {bottom}</translation></message>
 <message><source>Point spread function: the light of one point source on the sensor, |FT{P}|² of the pupil P = A·exp(i2πW).</source><translation>Punktbildfunktion: das Licht einer Punktquelle auf dem Sensor, |FT{P}|² der Pupille P = A·exp(i2πW).</translation></message>
@@ -839,7 +845,6 @@
 <message><source>Qbfs asphere</source><translation>Qbfs-Asphäre</translation></message>
 <message><source>Qcon asphere</source><translation>Qcon-Asphäre</translation></message>
 <message><source>Qt needs the library libxcb-cursor to open a window on X11; run apt-get install libxcb-cursor0</source><translation>Qt braucht die Bibliothek libxcb-cursor, um auf X11 ein Fenster zu öffnen; apt-get install libxcb-cursor0 ausführen</translation></message>
-<message><source>R50 {half} µm, R80 {most} µm of all light about its centroid; RMS of the rays {rms} µm; {method}</source><translation>R50 {half} µm, R80 {most} µm allen Lichts; RMS der Strahlen {rms} µm; {method}</translation></message>
 <message><source>R80 {radius} µm</source><translation>R80 {radius} µm</translation></message>
 <message><source>R80 {radius} µm (of {percent:.0f} % in view)</source><translation>R80 {radius} µm (von {percent:.0f} % im Bild)</translation></message>
 <message><source>R80: error ≤ {percent} % of R80, by a bound</source><translation>R80: Fehler ≤ {percent} % von R80, nach einer Schranke</translation></message>
@@ -1544,7 +1549,6 @@
 <message><source>field angle</source><translation>Feldwinkel</translation></message>
 <message><source>field angle along x</source><translation>Feldwinkel entlang x</translation></message>
 <message><source>field angle {angle:g}° is not below 90°; correct it</source><translation>der Feldwinkel {angle:g}° liegt nicht unter 90°; berichtigen</translation></message>
-<message><source>field curv.</source><translation>Bildwölbung</translation></message>
 <message><source>field curvature</source><translation>Bildfeldwölbung</translation></message>
 <message><source>field heights have no angle for this lens</source><translation>Feldhöhen haben bei diesem Objektiv keinen Winkel</translation></message>
 <message><source>field type</source><translation>Feldtyp</translation></message>
@@ -1629,7 +1633,6 @@
 <message><source>ignored, without effect on the picture</source><translation>übergangen, ohne Wirkung auf das Bild</translation></message>
 <message><source>image</source><translation>Bild</translation></message>
 <message><source>image f number</source><translation>bildseitige Blendenzahl</translation></message>
-<message><source>image height {h} mm</source><translation>Bildhöhe {h} mm</translation></message>
 <message><source>image heights</source><translation>Bildhöhen</translation></message>
 <message><source>image method "{method}" is unknown; choose {choices}</source><translation>das Bildverfahren "{method}" ist unbekannt; {choices} wählen</translation></message>
 <message><source>image na</source><translation>bildseitige NA</translation></message>
@@ -1698,7 +1701,6 @@
 <message><source>macOS learns what a program opens from its bundle; put P2SF Explorer.app into Applications</source><translation>macOS erfährt aus dem Programmpaket, was ein Programm öffnet; P2SF Explorer.app in den Ordner Programme legen</translation></message>
 <message><source>make the folder first or choose another</source><translation>den Ordner zuerst anlegen oder einen anderen wählen</translation></message>
 <message><source>marginal ray y, mm</source><translation>Randstrahl y, mm</translation></message>
-<message><source>marginal rays</source><translation>Randstrahlen</translation></message>
 <message><source>marginal rays, axial point</source><translation>Randstrahlen, Achspunkt</translation></message>
 <message><source>marker</source><translation>Marke</translation></message>
 <message><source>max {value} µm</source><translation>max. {value} µm</translation></message>
@@ -1982,7 +1984,6 @@
 <message><source>stop surface {stop} does not exist; the lens has surfaces 1 to {count}</source><translation>die Blendenfläche {stop} gibt es nicht; das Objektiv hat die Flächen 1 bis {count}</translation></message>
 <message><source>stop {gap} mm behind surface {number}</source><translation>Blende {gap} mm hinter Fläche {number}</translation></message>
 <message><source>stop ▪</source><translation>Blende ▪</translation></message>
-<message><source>stop, sensor</source><translation>Blende, Sensor</translation></message>
 <message><source>stop_surface is {number}; write a surface from 1 to {count}</source><translation>stop_surface ist {number}; eine Fläche von 1 bis {count} schreiben</translation></message>
 <message><source>stopped; choose the picture again to measure it</source><translation>angehalten; das Bild neu wählen, um es zu messen</translation></message>
 <message><source>stops</source><translation>Blenden</translation></message>
@@ -2449,8 +2450,6 @@
 <message><source>y, mm</source><translation>y, mm</translation></message>
 <message><source>y, of the edge</source><translation>y, des Randes</translation></message>
 <message><source>y, µm</source><translation>y, µm</translation></message>
-<message><source>y, µm (towards the axis)</source><translation>y, µm (zur Achse hin)</translation></message>
-<message><source>y, µm (towards the field)</source><translation>y, µm (zum Feld hin)</translation></message>
 <message><source>yield, %</source><translation>Ausbeute, %</translation></message>
 <message><source>y–ȳ</source><translation>y–ȳ</translation></message>
 <message><source>y–ȳ diagram (Delano 1963): marginal ray height against chief ray height at every surface. Where the line crosses ȳ = 0 is the stop or a pupil, where it crosses y = 0 an image.</source><translation>y–ȳ-Diagramm (Delano 1963): Randstrahlhöhe über Hauptstrahlhöhe an jeder Fläche. Wo die Linie ȳ = 0 schneidet, ist die Blende oder eine Pupille, wo sie y = 0 schneidet, ein Bild.</translation></message>
@@ -2584,8 +2583,6 @@
 <message><source>{method}, {count} numbers</source><translation>{method}, {count} Zahlen</translation></message>
 <message><source>{method}; {note}</source><translation>{method}; {note}</translation></message>
 <message><source>{most} of {count} points of the picture lie where {path} has one, and {least} should; check the file, its unit, the distance, and whether it is that of this picture</source><translation>{most} von {count} Punkten des Bildes liegen, wo {path} einen hat, und {least} sollten es; die Datei, ihre Einheit und die Entfernung prüfen, und ob sie die dieses Bildes ist</translation></message>
-<message><source>{ms} ms computing</source><translation>{ms} ms Rechnen</translation></message>
-<message><source>{ms} ms/frame</source><translation>{ms} ms/Bild</translation></message>
 <message><source>{names} have the shapes {shapes}, which do not broadcast; give arrays as numpy adds them</source><translation>{names} haben die Formen {shapes}, die numpy nicht zusammen auf eine bringt; Felder angeben, die sich addieren lassen</translation></message>
 <message><source>{names}: a database cannot express a tilted sensor; write the lens as a .toml</source><translation>{names}: Eine Datenbank kennt keinen gekippten Sensor; das Objektiv als .toml schreiben</translation></message>
 <message><source>{names}: not determined, one standard deviation exceeds {most} waves</source><translation>{names}: nicht bestimmt, eine Standardabweichung übersteigt {most} Wellen</translation></message>

@@ -32,11 +32,11 @@ SHORT = {
     "w40": "spherical",
     "w31": "coma",
     "w22": "astigmatism",
-    "w20": "field curv.",
+    "w20": "curvature",
     "wd": "defocus",
     "w11": "distortion",
 }
-LEFT, SYMBOL, NUMBER, BUTTON, GAP = 116.0, 34.0, 60.0, 19.0, 4.0
+LEFT, SYMBOL, NUMBER, BUTTON, GAP = 132.0, 34.0, 60.0, 19.0, 4.0
 SCALE_HEIGHT, SMALLEST_PX = 18.0, 120
 HANDLE = 5.0
 LETTERS = (("muted", "M", "warning"), ("solo", "S", "accent"))

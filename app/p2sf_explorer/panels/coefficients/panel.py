@@ -115,10 +115,8 @@ class CoefficientsPanel:
         self.bars.setEnabled(live.side != "B")  # the sliders move A
         self.free.setChecked(state.what_if.free_pupil)
         self.reset.setEnabled(altered)
-        # "A − B" needs the room, and λ stand at the numbers
-        words = "" if live.difference else tr("at {wavelength} nm", wavelength=f"{state.optics.wavelength_nm:.1f}")
         self._note = self._alteration_text(state, live.side) if altered else ""
-        self.widget.set_readout(self._colour_key() or words)
+        self.widget.set_readout(self._colour_key())
 
     def _alteration_text(self, state: State, side: str) -> str:
         """Return what is altered, as much of it as there is room for beside the title, and the link that undoes it.

@@ -46,7 +46,7 @@ LEAN_PX = 0.5  # of a bar that is painted upright all the same
 END_BAR_PX = 11  # of the bar at the end of a clipped ray
 STEP = 0.02  # of the width, by which the picture moves
 KINDS = {"marginal": ("marginal", 2), "rim": ("chief", 1), "chief": ("chief", 2)}
-SHORT = {"marginal": "marginal rays", "chief": "chief ray", "rim": "rim rays"}  # beside the note on the drawing
+SHORT = {"marginal": "marginal", "chief": "chief", "rim": "rim rays"}  # in the legend
 WORDS = {"marginal": "marginal rays, axial point", "chief": "chief ray", "rim": "rim rays of the field point"}
 OTHER_FIELDS = ("marginal", "third", "warning", "muted")  # colours of the fans whose source is not at the ring
 COLOURED = (("kind", "by kind"), ("field", "by field"), ("wavelength", "by wavelength"))
@@ -420,11 +420,10 @@ def drawing_note(layout: Layout) -> str:
 def legend(theme: Tokens, layout: Layout | None = None, field_deg: float = 0.0) -> str:
     """Return the lines' names in their colours."""
     note = drawing_note(layout) if layout else ""
-    words = SHORT if note else WORDS
     names = [
-        (theme.marginal, "━", tr(words["marginal"])),
-        (theme.chief, "━", tr(words["chief"])),
-        (theme.chief, "─", tr(words["rim"])),
+        (theme.marginal, "━", tr(SHORT["marginal"])),
+        (theme.chief, "━", tr(SHORT["chief"])),
+        (theme.chief, "─", tr(SHORT["rim"])),
     ]
     if layout and layout.groups:
         colours = fan_colours(layout.groups, field_deg)
@@ -432,7 +431,6 @@ def legend(theme: Tokens, layout: Layout | None = None, field_deg: float = 0.0) 
             (getattr(theme, colour, colour), "━", fan_name(layout.groups, number))
             for number, colour in enumerate(colours)
         ]
-    names.append((theme.text, "▮", tr("stop, sensor")))
     if note:
-        names = [(theme.warning, "▲", note), *names[:-1]]
+        names = [(theme.warning, "▲", note), *names]
     return " &nbsp; ".join(f'<span style="color:{colour}">{sign}</span> {name}' for colour, sign, name in names)
