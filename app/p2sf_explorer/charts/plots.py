@@ -74,6 +74,7 @@ class ColourBar(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
+        self.setAttribute(Qt.WidgetAttribute.WA_Hover)  # under the pointer it shows its lock
         self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Expanding)
         self._theme, self._name, self._unit = LIGHT, "CET-L4", ""
         self._labels: tuple[tuple[float, str], ...] = ()
@@ -177,7 +178,7 @@ class ColourBar(QWidget):
             painter.drawLine(QPointF(bar.right() + 1, y), QPointF(bar.right() + theme.px(4), y))
             room = QRectF(theme.px(self.TICK), y - theme.px(8), self.width(), theme.px(16))
             write(painter, room, text, -1, size)
-        if self._scale:
+        if self._scale and (self.locked or self.underMouse()):
             painter.setRenderHint(QPainter.RenderHint.Antialiasing)
             colour = QColor(theme.accent if self.locked else theme.muted)
             paint_lock(painter, self.lock_place(), colour, self.locked)

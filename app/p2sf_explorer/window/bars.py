@@ -66,7 +66,7 @@ class TopBar(QFrame):
         self.redo = self._tool("↷", "Redo: take the step again (Ctrl+Shift+Z)", store.redo)
         self.pin = self._tool("A | B", "Pin what is on screen as B, to compare with it, or unpin it (Ctrl+B)", None)
         self.pin.setCheckable(True)
-        self.snapshot = self._tool("Snapshot", "Save the PSF, a picture, or the state (Ctrl+E)", None)
+        self.snapshot = self._tool("Snapshot", "Save a picture that opens as it is here (Ctrl+E), or data", None)
         self.more = self._tool("More", "Report, command palette, colours, theme, language", None)
         self.more.setMenu(QMenu(self))
         self.more.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)

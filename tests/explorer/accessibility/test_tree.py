@@ -75,7 +75,6 @@ def test_the_tree_has_the_sliders_with_what_they_stand_at(window):
     window.store.update(field_deg=7.5)
     told = [node.words() for node in nodes(window.controls)]
     assert "Field, slider" in told and "Field, entry, 7.50°" in told
-    assert "Play: Field, button" in told
 
 
 def test_panels_are_groups_and_their_pictures_charts(window):

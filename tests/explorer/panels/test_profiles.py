@@ -88,10 +88,10 @@ def test_where_rays_are_clipped_the_samples_are_shown():
 def test_beside_a_difference_the_radii_are_said_to_be_those_of_a(window, qtbot):
     window.store.update(pinned=change(window.store.state, f_number=8.0), shown="a", tab="profiles")
     caption = window.panels["profiles"].widget.readout
-    qtbot.waitUntil(lambda: "R50" in caption.text())
-    assert "A: R50" not in caption.text()
+    qtbot.waitUntil(lambda: "R80" in caption.text())
+    assert "A: R80" not in caption.text()
     window.store.update(shown="difference")
-    qtbot.waitUntil(lambda: "A: R50" in caption.text())
+    qtbot.waitUntil(lambda: "A: R80" in caption.text())
 
 
 def test_the_same_question_is_answered_once(window, qtbot, monkeypatch):

@@ -89,7 +89,7 @@ def test_the_badge_predicts_what_is_not_measured(window, method, field_deg, word
 
 def test_a_measured_figure_takes_the_place_of_the_prediction():
     shown = live(new_state(method="seidel", field_deg=2.0, f_number=8.0))
-    whole, short = badge_words(shown, {"settled": "1.0"}, 0.998)
+    whole, short = badge_words(shown, 0.998)
     assert "R² 0.9980 vs Huygens" in whole and "predicted" not in whole + short
 
 
@@ -102,7 +102,7 @@ def test_ray_density_is_shown_over_its_peak_where_a_strehl_ratio_is_asked_for():
     shown = live(change(BLURRED, psf_units="strehl"))
     assert shown.psf.method == "geometric"
     assert (unit_of(shown.state, shown.psf), top_value(shown.state, shown.psf, 0.1)) == ("peak", 1.0)
-    assert "R²" not in badge_words(shown, {"settled": "1.0"}, None)[0]
+    assert "R²" not in badge_words(shown, None)[0]
     assert np.isnan(np.asarray(shown.psf.strehl, float))
 
 

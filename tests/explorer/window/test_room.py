@@ -99,6 +99,7 @@ def test_what_is_asked_first_is_seen_without_scrolling(only_window, language):
         QApplication.processEvents()
         facts, area = made.controls.facts, made.controls.figures
         made.store.update(depth_mm=500.0, caption=())
+        QApplication.processEvents()
         for name in ("Strehl ratio", "RMS wavefront", "Focal length", "Working f-number"):
             row = [row[0] for row in facts.rows].index(name)
             top = facts.mapTo(area.viewport(), facts._room(row).toRect().topLeft()).y()

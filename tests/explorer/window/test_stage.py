@@ -17,6 +17,7 @@ from p2sf_explorer.state.workspaces import WORKSPACES, with_workspace
 from p2sf_explorer.widgets.card import PANEL_MIME
 from p2sf_explorer.widgets.slider import Slider
 from tests.explorer.accessibility.test_looks import contrast
+from tests.support.windows.windows import at_rest
 
 TITLE = QPoint(30, 14)
 
@@ -223,14 +224,14 @@ def places(window) -> dict[int, tuple[int, int, int, int]]:
 
 
 @pytest.mark.parametrize("size", [(1280, 800), (1920, 1080)])
-def test_a_message_moves_nothing_and_bars_stand_outside_the_panels(window, size):
+def test_a_message_moves_nothing_and_bars_stand_outside_the_panels(window, qtbot, size):
     """An error floats over the line under the stage; A and B and the player stand below stage and rail."""
     window.resize(*size)
     window.store.replace(with_workspace(window.store.state, "explore", WORKSPACES["explore"]))
-    QApplication.processEvents()
+    at_rest(window, qtbot)
     before, first = places(window), window.store.state
     window.refuse(Message("a depth of {depth}", depth="-5 mm"))
-    QApplication.processEvents()
+    at_rest(window, qtbot)
     stage, edge = window.room.stage, window.edge
     left = (edge.mapTo(window, QPoint()) - stage.mapTo(window, QPoint())).x()
     assert left >= 0 and left + edge.width() <= stage.width(), "over the stage alone"
@@ -241,13 +242,13 @@ def test_a_message_moves_nothing_and_bars_stand_outside_the_panels(window, size)
     assert {key: at for key, at in before.items() if key in after and after[key] != at} == {}
     window.store.replace(pin(first))
     window.store.update(playback_slider="field_deg")
-    QApplication.processEvents()
+    at_rest(window, qtbot)
     for bar in (window.compare, window.play):
         assert bar.isVisible() and bar.height() >= bar.minimumSizeHint().height()
         assert window.rect().contains(bar.mapTo(window, bar.rect().bottomRight()))
         assert bar.mapTo(window, QPoint()).y() >= window.room.mapTo(window, QPoint(0, window.room.height())).y()
     window.store.replace(first)
-    QApplication.processEvents()
+    at_rest(window, qtbot)
     assert not window.edge.isVisible() and places(window) == before
     window.resize(1440, 900)
 

@@ -64,9 +64,9 @@ def rows(live: Live) -> tuple[Row, ...]:
             "Working f-number 1/(2 NA) at this depth.",
         ),
     )
-    told = caption(live)
-    known = {"Strehl ratio": "strehl" in told, "RMS wavefront": "rms" in told}
-    return tuple(row for row in every if not known.get(row[0]) and str(row[1]) != told.get("f_number"))
+    parts, f_number = live.state.display.caption, caption(live).get("f_number")
+    known = {"Strehl ratio": "strehl" in parts, "RMS wavefront": "rms" in parts}
+    return tuple(row for row in every if not known.get(row[0]) and str(row[1]) != f_number)
 
 
 def in_each_meridian(setup: ParaxialSetup, figure: Callable[[Lens], Message]) -> Message:

@@ -94,6 +94,13 @@
 <message><source>y, µm (outwards)</source><translation>y, µm (nach außen)</translation></message>
 <message><source>y, µm (inwards)</source><translation>y, µm (nach innen)</translation></message>
 <message><source>A | B</source><translation>A | B</translation></message>
+<message><source>PSF as NumPy (*.npz);;PSF as TIFF (*.tiff);;PSF as FITS (*.fits);;PSF as CSV (*.csv)</source><translation>PSF als NumPy (*.npz);;PSF als TIFF (*.tiff);;PSF als FITS (*.fits);;PSF als CSV (*.csv)</translation></message>
+<message><source>Picture of the window (*.png)</source><translation>Bild des Fensters (*.png)</translation></message>
+<message><source>Picture of the window…</source><translation>Bild des Fensters …</translation></message>
+<message><source>PSF as data…</source><translation>PSF als Daten …</translation></message>
+<message><source>Save a picture that opens as it is here (Ctrl+E), or data</source><translation>Ein Bild sichern, das sich so öffnet, wie es hier steht (Strg+E), oder Daten</translation></message>
+<message><source>Snapshot: a picture with its state in it…</source><translation>Schnappschuss: ein Bild, mit seinem Zustand darin …</translation></message>
+<message><source>Snapshot: PSF as data, with the state…</source><translation>Schnappschuss: PSF als Daten, mit Zustand …</translation></message>
 <message><source>Lessons with pictures, three minutes each</source><translation>Lektionen mit Bildern, je drei Minuten</translation></message>
 <message><source>List of lessons…</source><translation>Liste der Lektionen …</translation></message>
 <message><source>Made on {date}</source><translation>Erstellt am {date}</translation></message>
@@ -101,7 +108,6 @@
 <message><source>Make a lesson of this…</source><translation>Daraus eine Lektion machen …</translation></message>
 <message><source>Mirrors</source><translation>Spiegel</translation></message>
 <message><source>No lesson has these words; try fewer.</source><translation>Keine Lektion enthält diese Wörter; weniger versuchen.</translation></message>
-<message><source>PSF as data, or a picture of the window…</source><translation>PSF als Daten, oder ein Bild des Fensters …</translation></message>
 <message><source>Phone</source><translation>Telefon</translation></message>
 <message><source>Remove the chosen step</source><translation>Den gewählten Schritt entfernen</translation></message>
 <message><source>Remove the step</source><translation>Schritt entfernen</translation></message>
@@ -911,7 +917,6 @@
 <message><source>Save as…</source><translation>Speichern als …</translation></message>
 <message><source>Save lens as…</source><translation>Objektiv speichern als …</translation></message>
 <message><source>Save the 3D view</source><translation>3D-Ansicht speichern</translation></message>
-<message><source>Save the PSF, a picture, or the state (Ctrl+E)</source><translation>PSF, Bild oder Zustand speichern (Strg+E)</translation></message>
 <message><source>Save the lens</source><translation>Objektiv speichern</translation></message>
 <message><source>Save the lens as .toml, .zmx, .seq or ISET .json (Ctrl+Shift+S)</source><translation>Das Objektiv als .toml, .zmx, .seq oder ISET-.json speichern (Strg+Umschalt+S)</translation></message>
 <message><source>Save the lens as built</source><translation>Das Objektiv speichern, wie es gebaut ist</translation></message>
@@ -974,7 +979,6 @@
 <message><source>Slanted edge</source><translation>Schräge Kante</translation></message>
 <message><source>Smaller type</source><translation>Kleinere Schrift</translation></message>
 <message><source>Snapshot</source><translation>Sichern</translation></message>
-<message><source>Snapshot: PSF data or picture, with the state…</source><translation>Schnappschuss: PSF-Daten oder Bild, mit Zustand …</translation></message>
 <message><source>Solo: only this term counts (S)</source><translation>Solo: nur dieser Term zählt (S)</translation></message>
 <message><source>Spectrum</source><translation>Spektrum</translation></message>
 <message><source>Speed</source><translation>Geschwindigkeit</translation></message>

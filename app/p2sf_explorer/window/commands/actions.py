@@ -45,10 +45,8 @@ IN_MENU = "Find a command…", REPORT, COURSE, LESSONS, MAKE_LESSON, PRESENT, FI
 NO_MASK = "Clear pupil: no obscuration, blades, vanes, apodisation or cubic phase"
 REPORT_FILES = "Report as PDF (*.pdf);;Report as HTML (*.html);;Report as JSON (*.json)"
 STATE_FILES = "Explorer states (*.json)"
-SNAPSHOT_FILES = (
-    "PSF as NumPy (*.npz);;PSF as TIFF (*.tiff);;PSF as FITS (*.fits);;PSF as CSV (*.csv);;"
-    "Picture of the window (*.png)"
-)
+DATA_FILES = "PSF as NumPy (*.npz);;PSF as TIFF (*.tiff);;PSF as FITS (*.fits);;PSF as CSV (*.csv)"
+PICTURE_FILES = "Picture of the window (*.png)"
 
 
 # The sections of the handbook's page on the window that tell of its parts, by the names of their classes.
@@ -125,7 +123,8 @@ class Actions(QObject):
             Command("Open a lens file or a saved state…", self.ask_open, ("Ctrl+O",), "Files"),
             Command("Choose a shipped lens…", self._top.lens.open_gallery, ("Ctrl+L",), "Files"),
             Command("Save the lens as it is now…", self.ask_save_lens, ("Ctrl+Shift+S",), "Files"),
-            Command("Snapshot: PSF data or picture, with the state…", self.ask_snapshot, ("Ctrl+E",), "Files"),
+            Command("Snapshot: a picture with its state in it…", self.ask_snapshot, ("Ctrl+E",), "Files"),
+            Command("Snapshot: PSF as data, with the state…", lambda: self.ask_snapshot(DATA_FILES), (), "Files"),
             Command("Export a set of PSFs…", self.ask_set, ("Ctrl+Alt+E",), "Files"),
             Command("Autofocus: best RMS wavefront", self.autofocus, ("Ctrl+F",), "Lens"),
             Command(NO_MASK, lambda: store.update(**CLEAR_PUPIL), (), "Lens"),
@@ -228,7 +227,7 @@ class Actions(QObject):
 
         ask_save_lens(self._window, self._store)
 
-    def ask_snapshot(self, kinds: str = SNAPSHOT_FILES, picture_of: QWidget | None = None) -> None:
+    def ask_snapshot(self, kinds: str = PICTURE_FILES, picture_of: QWidget | None = None) -> None:
         """Ask for a name and save the snapshot."""
         from p2sf_explorer.files.asking import ask_path
 
@@ -321,7 +320,8 @@ class Actions(QObject):
 
     def _menu(self) -> QMenu:
         menu = QMenu(self._window)
-        menu.addAction(tr("PSF as data, or a picture of the window…") + "\tCtrl+E", self.ask_snapshot)
+        menu.addAction(tr("Picture of the window…") + "\tCtrl+E", self.ask_snapshot)
+        menu.addAction(tr("PSF as data…"), lambda: self.ask_snapshot(DATA_FILES))
         menu.addAction(tr("Set of PSFs…") + "\tCtrl+Alt+E", self.ask_set)
         pictures = menu.addMenu(tr("Picture of one panel"))
         for entry in REGISTRY:
