@@ -21,6 +21,7 @@ SIDES = (
     ("both", "A | B", "Show A and B side by side on one scale; zoom and crosshair go together"),
     ("difference", "A − B", "Show A − B; a panel in which a difference means nothing shows A and says why"),
 )
+BESIDE = 100  # times the share of the empty room: the words have the width of their line
 AIR_PX = 60  # beside the buttons and the differences: words in bold are wider
 SWAP_TIP = "Exchange A and B: the controls then move the other one"
 LINK_TIP = "What moves A and B together"
@@ -93,13 +94,15 @@ class CompareBar(QFrame):
 
     def _fit(self) -> None:
         """Have the differences between the buttons, or below them where they do not fit."""
-        needed = QFontMetrics(self.words.font()).horizontalAdvance(self._plain) + self._row.minimumSize().width()
+        buttons = *self.sides.values(), self.link, self.swap, self.unpin  # not the row, which may hold the words
+        wide = sum(button.sizeHint().width() + self._row.spacing() for button in buttons)
+        needed = QFontMetrics(self.words.font()).horizontalAdvance(self._plain) + wide
         beside, at = needed < self.width() - AIR_PX, self._row.indexOf(self.words)
         if beside == (at >= 0):
             return
         if beside:
             self._column.removeWidget(self.words)
-            self._row.insertWidget(len(SIDES) + 1, self.words, 1)
+            self._row.insertWidget(len(SIDES) + 1, self.words, BESIDE)
         else:
             self._row.removeWidget(self.words)
             self._column.addWidget(self.words)
