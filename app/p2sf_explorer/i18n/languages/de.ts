@@ -625,7 +625,7 @@
 <message><source>internal transmittance</source><translation>Reintransmissionsgrad</translation></message>
 <message><source>internal transmittance {share:g} of {thickness:g} mm at {wavelength:g} µm; give a share from 0 to 1, a positive thickness and a positive wavelength</source><translation>Reintransmissionsgrad {share:g} von {thickness:g} mm bei {wavelength:g} µm; einen Anteil von 0 bis 1, eine positive Dicke und eine positive Wellenlänge angeben</translation></message>
 <message><source>its transmission</source><translation>ihre Durchlässigkeit</translation></message>
-<message><source>beyond ∞</source><translation>jenseits von ∞</translation></message>
+<message><source>beyond ∞</source><translation>hinter ∞</translation></message>
 <message><source>passes a share of light that changes with the height</source><translation>lässt je nach Höhe verschieden viel Licht durch</translation></message>
 <message><source>rays are lost</source><translation>Strahlen gehen verloren</translation></message>
 <message><source>At ± this tolerance rays are lost: there is no figure, and the builds are not to be trusted.</source><translation>Bei ± dieser Toleranz gehen Strahlen verloren: Es gibt keine Zahl, und auf die gebauten Objektive ist kein Verlass.</translation></message>
