@@ -169,6 +169,8 @@ class Camera(CameraData):
         of_source["wavelength_nm"] = wavelength_nm
         axes = numbers | {name: value for name, value in of_source.items() if value is not None}
         points = ObjectPoints[Any](self, axes, source, threads, progress, scheduler)
+        if depth_mm is not None and "focus_mm" not in axes:
+            self._check_metres(float(np.max(points.axes["depth_mm"])))
         return points if points.sizes else points.points[0]
 
     if not TYPE_CHECKING:
@@ -311,6 +313,12 @@ class Camera(CameraData):
             check_depth_map(depths)
         return depths
 
+    def _check_metres(self, far_mm: float) -> None:
+        """Raise RequestError where the farthest of the depths is as near as metres are taken for millimetres."""
+        if far_mm <= MOST_METRES:
+            middle = Source(far_mm, wavelength_um=self.its_lens.reference_wavelength_um)
+            _check_metres(set_up_source(self.its_lens, middle, self.settings).lens, far_mm)
+
     def _plan(self, values: np.ndarray, depths: np.ndarray, rtol: float, clip: bool) -> "Plan":
         """Return the plan of a picture of these pixels and depths; RequestError without ``pixel_um``."""
         from p2sf.scene.planning.plan import plan
@@ -324,7 +332,7 @@ class Camera(CameraData):
         lens, middle = self.its_lens, self.its_lens.reference_wavelength_um
         near, far = float(depths.min()), float(depths.max())
         seen = set_up_source(lens, Source(far, wavelength_um=middle), self.settings).lens
-        _check_metres(seen, far)
+        self._check_metres(far)
         sensor = Sensor(values.shape[0], values.shape[1], self.pixel_um)
         scene = Scene(sensor, near_mm=near, far_mm=far, rtol=rtol, clip=clip).at_depths(depths)
         if values.ndim == 2 or values.shape[2] == 1:

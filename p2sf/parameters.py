@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from p2sf.arguments import first_place
-from p2sf.conventions import FARTHEST_MM, UM_PER_MM
+from p2sf.conventions import FARTHEST_MM, NM_PER_UM, UM_PER_MM
 from p2sf.errors import P2SFError, RequestError, SamplingError
 from p2sf.messages import Message, Style
 
@@ -51,6 +51,21 @@ def check_positive(name: str, value: float | None, infinite: bool = False) -> No
         return
     told = INFINITE if infinite else FINITE
     raise RequestError(told, parameter=name, value=value, unit=unit_behind(name))
+
+
+LEAST_NM = 5.0  # below the shortest that lenses are made for (6.7 nm), and the longest in µm that glass passes
+
+
+def check_wavelength_nm(name: str, value: float | None) -> None:
+    """Raise RequestError for a wavelength in nm that is not positive and finite, or can only be in µm; None passes."""
+    check_positive(name, value)
+    if value is not None and value < LEAST_NM:
+        raise RequestError(
+            "{parameter} is {value:g} nm; if these are µm, give nanometres, {nm:g}",
+            parameter=name,
+            value=value,
+            nm=value * NM_PER_UM,
+        )
 
 
 def check_distance(name: str, value: float | None) -> None:
@@ -244,7 +259,7 @@ SOURCE_PARAMETERS = (
     Parameter("field_x_deg", "Field in x", "°", check_angle, ANGLE, Message("field angle along x")),
     Parameter("object_height_mm", "the object height", "mm", check_finite),
     Parameter("image_height_mm", "the image height", "mm", check_finite),
-    Parameter("wavelength_nm", "Wavelength", "nm", check_positive, (100.0, 20000.0), Message("wavelength")),
+    Parameter("wavelength_nm", "Wavelength", "nm", check_wavelength_nm, (100.0, 20000.0), Message("wavelength")),
 )
 """Parameters of a point source, the fields of `p2sf.setting.PointSource`."""
 CAMERA_PARAMETERS = (

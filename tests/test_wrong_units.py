@@ -10,7 +10,7 @@ import pytest
 import p2sf
 from p2sf.arguments import _kind_words
 from p2sf.camera import _check_metres
-from p2sf.errors import RequestError, SamplingError
+from p2sf.errors import P2SFError, RequestError, SamplingError
 from p2sf.paraxial.first_order import cardinal_points
 
 LENS = p2sf.load_lens("tessar")
@@ -28,6 +28,62 @@ def test_micrometres_for_nanometres_are_refused_at_once(wavelength_nm, pixel_um,
     tracemalloc.stop()
     assert "nm" in str(refused.value) and "µm" in str(refused.value)
     assert most < 50e6  # bytes: a sum would take gigabytes
+
+
+CAMERA = p2sf.Camera(LENS, focus_mm=3000, f_number=8, pixel_um=4)
+ASKED = {
+    "a wavelength in µm": (lambda: CAMERA.at(wavelength_nm=0.55), "wavelength_nm", "give nanometres, 550"),
+    "wavelengths in µm": (lambda: CAMERA.at(wavelength_nm=[0.45, 0.55]), "wavelength_nm", "give nanometres, 450"),
+    "a source in µm": (lambda: p2sf.Source(wavelength_nm=0.6328), "wavelength_nm", "give nanometres, 632.8"),
+    "a depth in metres": (lambda: CAMERA.at(depth_mm=3.0), "depth_mm", "1000 for each metre"),
+    "depths in metres": (lambda: CAMERA.at(depth_mm=np.linspace(1, 5, 4)), "depth_mm", "1000 for each metre"),
+    "a wavelength of 0": (lambda: CAMERA.at(wavelength_nm=0), "wavelength_nm", "give a positive"),
+    "a depth behind the lens": (lambda: CAMERA.at(depth_mm=-100), "depth_mm", "give a positive"),
+    "an angle beyond 90°": (lambda: CAMERA.at(field_deg=[0, 120]), "field_deg", "give"),
+    "a table of depths": (lambda: CAMERA.at(depth_mm=[[1000, 2000]]), "depth_mm", "give one number or a list"),
+    "no depths": (lambda: CAMERA.at(depth_mm=[]), "depth_mm", "give one number or a list"),
+    "a depth that is NaN": (lambda: CAMERA.at(depth_mm=np.nan), "depth_mm", "give one number or a list"),
+    "a colour": (lambda: CAMERA.at(wavelength_nm=["green"]), "wavelength_nm", "give"),
+    "a number for a source": (lambda: CAMERA.at(3000), "source", "give a p2sf.Source, or name"),
+    "a tuple for a source": (lambda: CAMERA.at((3000, 10, 550)), "source", "give a p2sf.Source, or name"),
+    "a source and a depth": (lambda: CAMERA.at(p2sf.Source(), depth_mm=3000), "depth_mm", "keep one"),
+    "a number stated twice": (lambda: CAMERA.at(f_number=[4, 8]), "f_number", "keep one"),
+    "an axis in the plural": (lambda: CAMERA.at(fields_deg=[0, 5]), "fields_deg", "choose"),
+    "an axis in µm": (lambda: CAMERA.at(wavelength_um=[0.5]), "wavelength_um", "choose"),
+    "no frequencies": (lambda: CAMERA.at(field_deg=[0, 5]).mtf(), "frequency_per_mm", "give one number or a list"),
+    "no radii": (lambda: CAMERA.at(field_deg=[0, 5]).energy(), "radius_um", "give one number or a list"),
+    "no positions": (lambda: CAMERA.at(field_deg=[0, 5]).line_spread(), "position_um", "give one number or a list"),
+    "a method that is none": (lambda: CAMERA.at().psf("fft"), "fft", "choose"),
+    "a method of no pupil": (lambda: CAMERA.at().mtf(20, "gaussian"), "gaussian", "choose"),
+    "half a pixel": (lambda: CAMERA.at().psf(pixels=16.5), "pixels", "give a whole number"),
+    "no pixels": (lambda: CAMERA.at(field_deg=[0, 5]).psf(pixels=0), "pixels", "give a whole number"),
+    "a pitch of 0": (lambda: CAMERA.at(field_deg=[0, 5]).psf(pixel_um=0), "pixel_um", "give a positive"),
+    "an R² of 1": (lambda: CAMERA.at().psf(min_r2=1.0), "min_r2", "give"),
+    "an R² in per cent": (lambda: CAMERA.at().choose_method(99), "min_r2", "give"),
+    "a basis that is none": (lambda: CAMERA.at().zernike("ansi"), "ansi", "choose"),
+    "no terms": (lambda: CAMERA.at().zernike(terms=0), "terms", "give"),
+    "a spectrum that is none": (lambda: CAMERA.at().mtf(20, spectrum="daylight"), "daylight", ";"),
+    "an angle that is infinite": (lambda: CAMERA.at().mtf(20, turn_deg=np.inf), "turn_deg", "give"),
+    "threads that are none": (lambda: CAMERA.at(threads=0).psf(), "threads", "give a whole number"),
+    "an f-number of 0": (lambda: p2sf.Camera(LENS, f_number=0).at().psf(), "f_number", "give"),
+    "a focus behind the lens": (lambda: p2sf.Camera(LENS, focus_mm=-3000), "focus_mm", "give a positive"),
+    "a pixel below 0": (lambda: p2sf.Camera(LENS, pixel_um=-4), "pixel_um", "give a positive"),
+    "the source of several": (lambda: CAMERA.at(field_deg=[0, 5]).source, "2 points", "ask one of them"),
+}
+"""What someone who knows optics and numpy may write: by what it is, the call, what is named, and what is to be done."""
+
+
+@pytest.mark.parametrize(("call", "named", "remedy"), ASKED.values(), ids=ASKED)
+def test_a_wrong_call_is_one_sentence_with_a_remedy(call, named, remedy):
+    with pytest.raises(P2SFError) as refused:
+        call()
+    told = str(refused.value)
+    assert named in told and remedy in told and "\n" not in told
+
+
+@pytest.mark.parametrize("depth_mm", [3000.0, [500.0, 3000.0], 400.0, np.inf])
+def test_depths_that_are_no_metres_are_taken(depth_mm):
+    assert CAMERA.at(depth_mm=depth_mm).points
 
 
 def test_limits_are_no_tolerances():

@@ -10,7 +10,7 @@ from p2sf.arguments import argument, in_own_unit
 from p2sf.conventions import FARTHEST_MM, NM_PER_UM, degrees_from_slope, is_number, slope_from_degrees
 from p2sf.errors import RequestError
 from p2sf.messages import ParameterName
-from p2sf.parameters import check_angle, check_distance, check_finite, check_positive
+from p2sf.parameters import check_angle, check_distance, check_finite, check_positive, check_wavelength_nm
 
 D_LINE_UM = 0.5875618
 NAMES = "depth_mm", "field_slope", "wavelength_um", "field_deg", "wavelength_nm", "azimuth_deg"
@@ -79,7 +79,7 @@ class Source:
             field_slope = 0.0
         if wavelength_nm is not None:
             _check_once("wavelength_nm", "wavelength_um", wavelength_um)
-            check_positive("wavelength_nm", wavelength_nm)
+            check_wavelength_nm("wavelength_nm", wavelength_nm)
             wavelength_um = wavelength_nm / NM_PER_UM
         elif wavelength_um is None:
             wavelength_um = D_LINE_UM
