@@ -153,7 +153,7 @@ class Camera(CameraData):
         >>> import p2sf
         >>> camera = p2sf.Camera("double_gauss_28", focus_mm=3000, f_number=5.6)
         >>> camera.at(depth_mm=3000, field_deg=10).psf().method
-        'fitted'
+        'traced'
         >>> camera.at(depth_mm=3000, field_deg=[0, 7, 14]).mtf(20)["tangential"].round(2)
         array([0.79, 0.53, 0.06])
         """

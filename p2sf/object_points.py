@@ -163,7 +163,7 @@ class ObjectPoints(Generic[Count]):
     >>> import p2sf
     >>> camera = p2sf.Camera("double_gauss_28", focus_mm=3000)
     >>> camera.at(depth_mm=3000, field_deg=7, wavelength_nm=550).choose_method().method
-    'fitted'
+    'traced'
     >>> points = camera.at(field_deg=[0, 7], wavelength_nm=[450, 550, 650], f_number=[5.6, 8, 11])
     >>> points
     <ObjectPoints of double_gauss_28: f_number 3 × field_deg 2 × wavelength_nm 3>

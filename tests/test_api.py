@@ -45,7 +45,7 @@ print(psf.method, psf.values.shape, psf.pixel_um, psf.strehl)
 
 def test_a_newcomer_needs_one_import(capsys):
     exec(LINES, {})
-    assert capsys.readouterr().out.split()[0] == "fitted"
+    assert capsys.readouterr().out.split()[0] == "traced"
 
 
 def test_importing_loads_nothing_heavy():

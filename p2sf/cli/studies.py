@@ -1,6 +1,5 @@
 """`p2sf tradeoff`, `p2sf validate` and `p2sf paper`: what methods cost, and others' figures beside our own."""
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, BinaryIO
 
@@ -29,6 +28,16 @@ Depths = Annotated[
 ]
 Waves = Annotated[list[float] | None, Several, Parameter(help="Wavelengths, nm; the file's middle one when not given.")]
 Pixels = Annotated[int, Parameter(help="Samples along each side of the compared window.")]
+Pitch = Annotated[
+    float | None, Parameter(help="Distance between samples, µm; one that shows the whole PSF if not given.")
+]
+Integrated = Annotated[
+    bool | None,
+    Parameter(negative="--points", help="The light on pixels, or points; as p2sf psf decides when not given."),
+]
+Methods = Annotated[
+    list[str] | None, Several, Parameter(help="Methods to measure, auto among them; all of them when not given.")
+]
 Named = Annotated[str | None, Parameter(help="A lens file, or the name of a shipped lens (p2sf lenses lists them).")]
 Complete = Annotated[
     bool,
@@ -52,11 +61,14 @@ def tradeoff(
     lens: Named = None,
     /,
     *,
+    methods: Methods = None,
     fields_deg: Fields = None,
     depths_mm: Depths = None,
     wavelengths_nm: Waves = None,
     camera: CameraFlags = AS_IN_ITS_FILE,
     pixels: Pixels = 64,
+    pixel_um: Pitch = None,
+    integrated: Integrated = None,
     complete: Complete = False,
     sampling: Sampling = False,
     samplings: Samplings = None,
@@ -83,17 +95,21 @@ def tradeoff(
         depths_mm=depths_mm,
         fields_deg=fields_deg,
         wavelengths_nm=wavelengths_nm,
+        methods=methods or tradeoff.EVERY,
         pixels=pixels,
+        pixel_um=pixel_um,
+        integrated=integrated,
         samplings=samplings or (),
         camera=Camera(**vars(camera)),
     )
     head, *lines = tradeoff.table(rows)
-    title = f"{found.title or found.name}: each method against the Huygens sum, {pixels} × {pixels} samples"
+    title = f"{found.title or found.name}: each method against exact rays, {pixels} × {pixels} samples"
     if output:
-        _write_tradeoff(output, rows, (head, *lines), title)
+        _write_tradeoff(output, rows, title)
     if as_json:
         return print(tradeoff.to_json(rows))
-    return print_table(title, head, lines)
+    print_table(title, head, lines)
+    return print("", *tradeoff.in_words(rows), sep="\n")
 
 
 def _check(pixels: int, fields_deg: Axis, depths_mm: Axis, wavelengths_nm: Axis) -> None:
@@ -116,7 +132,7 @@ def _check(pixels: int, fields_deg: Axis, depths_mm: Axis, wavelengths_nm: Axis)
                 raise RequestError("{parameter} has {value:g}; give positive numbers", parameter=name, value=value)
 
 
-def _write_tradeoff(output: Path, rows: list["MethodCost"], lines: Sequence[tuple[str, ...]], title: str) -> None:
+def _write_tradeoff(output: Path, rows: list["MethodCost"], title: str) -> None:
     from p2sf.studies import tradeoff
 
     def write(handle: BinaryIO) -> None:
@@ -124,7 +140,7 @@ def _write_tradeoff(output: Path, rows: list["MethodCost"], lines: Sequence[tupl
             case ".json":
                 handle.write(tradeoff.to_json(rows).encode())
             case ".csv":
-                handle.write("".join(",".join(line) + "\n" for line in lines).encode())
+                handle.write(tradeoff.to_csv(rows).encode())
             case ".png":
                 tradeoff.draw(handle, rows, title.replace(": ", "\n"))
 

@@ -214,6 +214,7 @@ def psf_of(asked: PsfRequest, cancelled: Cancelled | None = None) -> Psf:
     seconds = perf_counter() - started
     if asked.by_hand:
         return replace(psf, seconds=seconds)
+    psf = psf.with_figures(predicted_error=partial(_error_in_window, psf))
     if asked.choice is not None:
         psf = _with_promise(psf, asked.choice, 1 - asked.options.min_r2)
     number, error = (partial(_or_none, figure, asked) for figure in (_fresnel_number, _plane_wave_error))
@@ -221,13 +222,17 @@ def psf_of(asked: PsfRequest, cancelled: Cancelled | None = None) -> Psf:
     return replace(psf, figures=figures, seconds=seconds)
 
 
+def _error_in_window(psf: Psf) -> float | None:
+    """Return the predicted 1 − R² of a picture: a method predicts that of the whole PSF, of unit flatness."""
+    error = psf.predicted_error
+    return None if error is None else error * flatness_of(psf.values)
+
+
 def _with_promise(psf: Psf, choice: Choice, asked_error: float) -> Psf:
     """Return what `auto` made with the 1 − R² that was asked for, and with what it may miss of it in this window."""
     flatness, error = flatness_of(psf.values), psf.predicted_error
-    if error is not None:
-        error *= flatness
-        if choice.method != SPHERICAL.name and choice.plane_wave_error is not None:
-            error += choice.plane_wave_error * max(1.0, flatness / choice.flatness)
+    if error is not None and choice.method != SPHERICAL.name and choice.plane_wave_error is not None:
+        error += choice.plane_wave_error * (1.0 if choice.compared else max(1.0, flatness / choice.flatness))
     if error is None or psf.error is None or error <= asked_error:
         return replace(psf.with_figures(predicted_error=error), asked_error=asked_error)
     # Where the promise is not kept, the error of the sum is the smaller part of what the picture misses.

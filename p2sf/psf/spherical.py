@@ -25,7 +25,7 @@ from p2sf.lens.source import Source
 from p2sf.psf.prediction import CAUTION
 from p2sf.pupil.fit import level_rays, levels_for
 from p2sf.pupil.rays import RayPupil
-from p2sf.pupil.smooth_pupil import all_reach
+from p2sf.pupil.smooth_pupil import PROBE, all_reach, coarse_pencil, coarse_points
 from p2sf.raytrace.exit_sphere import exit_sphere
 from p2sf.raytrace.pencil import Rays, exit_radius, pencil
 from p2sf.raytrace.ray_field import AIRY_RADIUS, Steepness, steepness
@@ -34,7 +34,8 @@ from p2sf.threads import one_blas_thread
 # Of (2π)² times the variance, less by FALL of the slope of the phase in waves: where it is steep, few rays interfere.
 BOUND, FALL = 0.4, 2 / 3  # held by 500 random states (python -m tests.long.spherical_prediction)
 MOST_INSIDE = 0.9  # of the rays in a window, from which on its R² is that of the whole picture
-SAMPLES = 64  # a side of the window in which the two sums are compared
+SAMPLES = 64  # a side of the window in which the two sums are compared, where no other is asked for
+MOST_SAMPLES = 128  # of a window that is asked for: more of them differ as SAMPLES do
 ROOM = 1.1, 2.0  # of that window: of the landing points, and Airy radii
 FEW_NODES = 2**14  # of that comparison: some 10 ms
 MOST_NODES = 2**21  # of that comparison, beyond which it is not made: a second, where spherical waves take ten
@@ -117,33 +118,39 @@ def _wide_angle(rays: Rays, steep: Steepness, distance_um: float) -> float:
     return (pi * steep.spread * spread * (sine * t + t * t / 2)) ** 2 + t**4
 
 
-def plane_wave_error(lens: Lens, source: Source, clip: bool = False, half_um: float = inf) -> float:
+def plane_wave_error(
+    lens: Lens, source: Source, clip: bool = False, half_um: float = inf, samples: int | None = None
+) -> float:
     """Return the predicted 1 − R² of plane waves against spherical ones, both of exact rays.
 
-    It is that of two sums at SAMPLES² places in a window of ±``half_um``, or in the one that shows the whole PSF where
-    that is smaller, the spherical one by the plane waves that agree with it at the chief ray to second order, and what
-    these miss at wide angles (`_wide_angle`); 0 for an exit pupil at infinity. Raises GeometryError where rays do not
-    reach the sensor, SamplingError where more than MOST_NODES are needed.
+    It is that of two sums at the ``samples``² places of a window of ±``half_um``, since R² of few samples depends on
+    where they fall; without them, or with more than MOST_SAMPLES, at SAMPLES² places of that window or of the one that
+    shows the whole PSF, where that is smaller. The spherical one is summed by the plane waves that agree with it at the
+    chief ray to second order, and what these miss at wide angles is added (`_wide_angle`); 0 for an exit pupil at
+    infinity. Raises GeometryError where rays do not reach the sensor, SamplingError where more than MOST_NODES are
+    needed.
     """
-    return _compare_sums(lens, source, clip, min(half_um, half_window_um(lens, source)))
+    if samples is not None and samples <= MOST_SAMPLES:
+        return _compare_sums(lens, source, clip, half_um, samples)
+    return _compare_sums(lens, source, clip, min(half_um, half_window_um(lens, source)), SAMPLES)
 
 
 @lru_cache(maxsize=64)
 @one_blas_thread
-def _compare_sums(lens: Lens, source: Source, clip: bool, half: float) -> float:
+def _compare_sums(lens: Lens, source: Source, clip: bool, half: float, samples: int) -> float:
     """Return `plane_wave_error`, kept by the window that it is of, however that was asked for."""
     reach = hypot(half, half)
     plane = RayPupil(lens, source, clip, interpolated=True, most=MOST_NODES)
-    counts, axis = plane.counts(reach), centred_axis(SAMPLES, 2 * half / SAMPLES)
+    counts, axis = plane.counts(reach), centred_axis(samples, 2 * half / samples)
     sphere = exit_sphere(lens, source)  # behind the counts, which refuse a wide blur sooner
     if sphere is None:
         return 0.0
     pupils = plane, replace(plane, sphere=sphere)
     counts = max(counts, pupils[1].counts(reach), key=prod)
     flat, own = (pupil.sample(counts, reach).waves.plane.intensity(axis, axis, np.float32) for pupil in pupils)
-    xi, eta, _ = level_rays(levels_for(lens)[0])
-    rays = pencil(lens, source, xi, eta)
-    return 1 - r_squared(flat, own) + _wide_angle(rays, steepness(rays, xi, eta), sphere.distance * UM_PER_MM)
+    rays = coarse_pencil(lens, source, PROBE)
+    steep = steepness(rays, *coarse_points(lens.pupil_domain))
+    return 1 - r_squared(flat, own) + _wide_angle(rays, steep, sphere.distance * UM_PER_MM)
 
 
 def is_long_comparison(lens: Lens, source: Source, clip: bool = False, half_um: float = inf) -> bool:
@@ -172,7 +179,6 @@ def worth_spherical(lens: Lens, source: Source, clip: bool) -> bool:
 @lru_cache(maxsize=64)
 def half_window_um(lens: Lens, source: Source) -> float:
     """Return half the side of the window about the chief ray in which the two sums are compared, µm."""
-    xi, eta, _ = level_rays(levels_for(lens)[0])
-    rays = pencil(lens, source, xi, eta)
-    airy = AIRY_RADIUS / steepness(rays, xi, eta).spread
+    rays = coarse_pencil(lens, source, PROBE)
+    airy = AIRY_RADIUS / steepness(rays, *coarse_points(lens.pupil_domain)).spread
     return float(ROOM[0] * np.nanmax(np.hypot(rays.x_um, rays.y_um)) + ROOM[1] * airy)

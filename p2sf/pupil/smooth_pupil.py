@@ -8,6 +8,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from p2sf.conventions import write_protect
 from p2sf.disc.disc_function import BY_ANGLE, BY_RADIUS, DiscFunction
 from p2sf.disc.domain import PupilDomain
 from p2sf.disc.quadrature import disc_axes, disc_nodes
@@ -34,6 +35,13 @@ def coarse_points(domain: PupilDomain, counts: Counts = PROBE) -> tuple[np.ndarr
     """Return pupil points (ξ, η) of the coarse pencil; they include the rim, where phases are steepest."""
     nodes, angle = disc_nodes(*counts), rim_angles(counts)
     return domain.points(np.append(nodes.xi, np.sin(angle)), np.append(nodes.eta, np.cos(angle)))
+
+
+@lru_cache(maxsize=4)
+def coarse_weights(domain: PupilDomain) -> np.ndarray:
+    """Return the area weights of the rays of the coarse pencil, (ray,), of unit sum; those on the rim have none."""
+    half = np.append(disc_nodes(*PROBE).weight, np.zeros(PROBE[1]))
+    return write_protect(np.tile(half, len(domain.halves)) / (len(domain.halves) * half.sum()))
 
 
 def rim_angles(counts: Counts) -> np.ndarray:

@@ -14,22 +14,24 @@ import pytest
 
 import p2sf
 from p2sf import api
+from p2sf.disc.mask import PupilMask
 from p2sf.errors import GeometryError, RequestError, SamplingError
 from p2sf.figures.compare import flatness_of, r_squared
-from p2sf.lens.lens import Aperture, with_aim, with_f_number, with_sensor
+from p2sf.lens.lens import Aperture, with_aim, with_f_number, with_mask, with_sensor
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.paraxial.first_order import image_distance
 from p2sf.paraxial.wavefront import wavefront
-from p2sf.psf import cost, methods
+from p2sf.psf import choosing, cost, methods
 from p2sf.psf.choosing import QUICK_LEVELS, REASONS, Choice, choose
 from p2sf.psf.huygens import huygens_psf
 from p2sf.psf.methods import NAMES, PsfOptions, PsfRequest, render
 from p2sf.psf.pixel_integrals import render_integrated
 from p2sf.psf.prediction import CAUTION, predicted_error, residual_for, seidel_sigma
+from p2sf.pupil import smooth_pupil
 from p2sf.pupil.cost import SAMPLE_SECONDS
 from p2sf.pupil.fit import level_rays
-from p2sf.studies.tradeoff import _point_of_trade, draw, error, front, table, to_json, tradeoff
+from p2sf.studies.tradeoff import draw, error, front, table, to_json, tradeoff
 from tests.long.method_choice import Trial, summary, trials
 from tests.support.lenses.shaped_lenses import ODD, singlet
 from tests.support.rays.made_rays import made_rays
@@ -91,7 +93,7 @@ def nearer_the_axis():
 def test_auto_takes_the_method_that_choose_names():
     lens, source = nearer_the_axis()
     made = render(lens, source, options=PsfOptions(min_r2=0.99))
-    assert choose(lens, source, 0.99).method == "fitted" == made.method
+    assert choose(lens, source, 0.99).method == "traced" == made.method
     slow = replace(lens, aperture=Aperture("stop_semi_diameter", 1.0))
     assert choose(slow, replace(source, field_slope=0.0), 0.99).method == "seidel"
 
@@ -99,19 +101,39 @@ def test_auto_takes_the_method_that_choose_names():
 def test_tighter_tolerances_cost_more_and_promise_more():
     lens, source = nearer_the_axis()
     chosen = [choose(lens, source, t) for t in (0.9, 0.99, 0.999, 0.99999, 1 - 1e-7)]
-    assert [c.method for c in chosen] == ["fitted", "fitted", "spherical", "spherical", "spherical"]
-    assert [c.numbers for c in chosen] == [26, 26, 0, 0, 0]
+    assert [c.method for c in chosen] == ["traced", "traced", "spherical", "spherical", "spherical"]
+    assert not any(c.numbers for c in chosen)
     errors = [c.predicted_error for c in chosen]
     assert all(error <= 1 - t for error, t in zip(errors, (0.9, 0.99, 0.999, 0.99999, 1 - 1e-7), strict=True))
     assert errors == sorted(errors, reverse=True)
     assert all("1 − R²" in str(c.reason) for c in chosen)
 
 
+def test_a_fit_is_taken_where_it_spares_rays(monkeypatch):
+    """Behind a mask `traced` takes a ray for every node; of a clear pupil both take the rays of one coarse pencil."""
+    lens, source = nearer_the_axis()
+    rays: list[int] = []
+
+    def counted(trace):
+        def traced(lens, source, xi, eta, **more):
+            rays.append(len(xi))
+            return trace(lens, source, xi, eta, **more)
+
+        return traced
+
+    for module in (smooth_pupil, choosing):
+        monkeypatch.setattr(module, "pencil", counted(module.pencil))
+    assert choose(lens, replace(source, field_slope=0.201), 0.99).method == "traced" and rays == [252]
+    rays.clear()
+    masked = choose(with_mask(lens, PupilMask(obscuration=0.3)), source, 0.99)
+    assert masked.method == "fitted" and masked.numbers == 26 and masked.seidel_error > masked.allowed_error
+
+
 def test_a_fast_petzval_is_traced():
     lens, source = case("petzval", huygens_rows("petzval")[1][0])
     choice = choose(lens, source, 0.99)
-    assert choice.method == "traced" and choice.lost_rays == 0 and choice.tried_rays == 64
-    assert choice.allowed_error < choice.fitted_error < choice.seidel_error
+    assert choice.method == "traced" and choice.lost_rays == 0 and choice.tried_rays == 252
+    assert choice.allowed_error < choice.seidel_error and choice.fitted_error is None
     assert choose(lens, source, 0.999).method == "spherical"  # plane waves of so wide a blur are not known to keep it
 
 
@@ -135,12 +157,16 @@ TRIED = {"tried_rays": 64, "allowed_error": 0.01}
         (Choice("seidel", 2e-3, 6, **TRIED), "six coefficients keep 1 − R² ≤ 2.0e-03, where 1.0e-02 is allowed"),
         (
             Choice("fitted", 3e-3, 26, **TRIED, seidel_error=1.4),
-            "26 numbers from 64 rays keep 1 − R² ≤ 3.0e-03, where 1.0e-02 is allowed and six coefficients "
-            "would leave more",
+            "26 fitted numbers keep 1 − R² ≤ 3.0e-03, where 1.0e-02 is allowed and six coefficients would leave more",
         ),
         (
             Choice("traced", 5e-5, 0, **TRIED, fitted_error=0.02, fitted_numbers=46),
             "exact rays, since 46 fitted numbers leave 1 − R² ≤ 2.0e-02 only",
+        ),
+        (
+            Choice("traced", 5e-5, 0, **TRIED, seidel_error=41.0),
+            "exact rays, which cost a single picture no more than a fit, where six coefficients may leave "
+            "1 − R² = 1.0e+00",
         ),
         (
             Choice("huygens", 1e-8, 0, lost_rays=7, **TRIED),
@@ -173,10 +199,11 @@ def test_every_method_predicts_at_least_the_error_it_makes(method):
     lens, source, pixel, _ = off_axis()
     made, reference = render(lens, source, method, 64, pixel), huygens_psf(lens, source, 64, pixel)
     if method == "spherical":
-        assert made.predicted_error < CAUTION < made.plane_wave_error  # of the whole PSF; here is its core
+        assert made.predicted_error < 0.1 * CAUTION < made.plane_wave_error  # of the whole PSF; here is its core
         return
     assert made.predicted_error >= 1 - r_squared(made.values, reference.values) - 1e-12  # round-off of R²
-    assert method == "fitted" or (made.predicted_error > CAUTION) == (method in ("seidel", "gaussian"))
+    own = made.predicted_error / flatness_of(made.values)  # of the whole PSF
+    assert method == "fitted" or (own > CAUTION) == (method in ("seidel", "gaussian"))
 
 
 @pytest.mark.slow
@@ -213,7 +240,7 @@ def test_rims_clip_whatever_describes_the_pupil():
         same = [render(lens, on_axis, name, 32, pixel, PsfOptions(clip=clip)).values for clip in (True, False)]
         assert 1 - r_squared(*same) < 1e-6
     choice = choose(lens, source, clip=True)
-    assert 0 < choice.lost_rays < choice.tried_rays == 64
+    assert 0 < choice.lost_rays < choice.tried_rays == 252
     auto = render(lens, source, "auto", 32, pixel, PsfOptions(clip=True))
     reference = render(lens, source, "spherical", 32, pixel, PsfOptions(clip=True))
     assert auto.method == "spherical" and r_squared(auto.values, reference.values) > 0.99
@@ -235,7 +262,7 @@ def test_unknown_methods_and_qualities_and_bad_tolerances_are_refused():
 def test_the_trade_is_one_table_one_picture_and_one_json():
     lens = replace(double_gauss(), fields_deg=(0.0, 14.0))
     rows = tradeoff(lens, pixels=16)
-    assert {row.method for row in rows} == set(NAMES) and {row.field_deg for row in rows} == {0.0, 14.0}
+    assert {row.method for row in rows} == {methods.AUTO, *NAMES} and {row.field_deg for row in rows} == {0.0, 14.0}
     plain = json.loads(to_json(rows))
     assert len(plain) == len(rows) and plain[0]["depth_mm"] is None
     assert all(row.seconds > 0 and row.bytes > 0 for row in rows)
@@ -297,14 +324,13 @@ def test_a_method_that_describes_no_pupil_makes_its_own_picture(monkeypatch):
     monkeypatch.setattr(methods, "METHODS", (*methods.METHODS, own))
     made, fitted = (render_integrated(lens, source, method, 16, pixel) for method in ("own", "fitted"))
     assert np.array_equal(made.values, fitted.values)
-    assert np.array_equal(_point_of_trade(lens, source, (16, pixel), made, "own", "settled").values, fitted.values)
 
 
 def test_every_list_of_methods_names_those_there_are():
     """Types and defaults of the library and the command line are written out; the list of methods is what counts."""
     wanted = {methods.AUTO, *NAMES}
     assert set(get_args(api.Method)) == wanted
-    assert set(inspect.signature(tradeoff).parameters["methods"].default) == set(NAMES)
+    assert set(inspect.signature(tradeoff).parameters["methods"].default) == wanted
     described = {method.name for method in methods.METHODS if method.over_frequency}
     assert set(get_args(api.PupilMethod)) == {methods.AUTO, *described}
     assert set(REASONS) == described  # those that `choose` takes

@@ -173,7 +173,7 @@ def test_lens_and_wavelength_scaled_alike_have_the_same_picture():
 def test_auto_takes_spherical_waves_where_plane_ones_miss_by_a_thousandth():
     lens, source = find_lens("cooke_triplet"), Source(field_deg=10)
     focused, blurred = lens, defocused(*with_fresnel_number(lens, source, 100), 100, 4.0)
-    assert choose(focused, source).method == "fitted"
+    assert choose(focused, source).method == "traced"
     assert plane_wave_error(focused, source) < choose(focused, source).plane_wave_error < CAUTION
     choice = choose(blurred, source)
     assert choice.method == "spherical" and choice.plane_wave_error > plane_wave_error(blurred, source) > CAUTION

@@ -126,6 +126,6 @@ def test_auto_does_not_choose_six_coefficients_that_are_refused():
     front = replace(gauss.surfaces[0], transmission=Transmission(1.0, -1e-5))
     lens = replace(gauss, surfaces=(front, *gauss.surfaces[1:]))
     assert p2sf.Camera(gauss).at(Source()).choose_method(0.9).method == "seidel"
-    assert p2sf.render(lens, Source(), min_r2=0.9).method == "fitted"
+    assert p2sf.render(lens, Source(), min_r2=0.9).method == "traced"
     nodes = {"depths_mm": (1e4, 1e5), "fields_deg": (0.0, 2.0), "wavelengths_nm": (550.0, 560.0)}
     assert p2sf.build_database(lens, method="auto", **nodes).database.method == "fitted"

@@ -21,7 +21,8 @@ def test_every_method_has_its_cost_here_and_the_exact_ones_promise_more():
     assert tuple(cost.method for cost in found) == NAMES
     seidel, fitted, traced = found[:3]
     assert 0 < seidel.milliseconds < inf and 0 < fitted.milliseconds < inf
-    assert fitted.error < seidel.error and traced.error == TRACED_ERROR
+    assert fitted.error < seidel.error
+    assert TRACED_ERROR <= traced.error < 1.1 * TRACED_ERROR  # times the flatness of a window that shows the whole PSF
 
 
 FOUND = (

@@ -1540,6 +1540,7 @@
 <message><source>map…</source><translation>Karte …</translation></message>
 <message><source>exact</source><translation>genau</translation></message>
 <message><source>exact rays</source><translation>exakte Strahlen</translation></message>
+<message><source>exact rays, which cost a single picture no more than a fit, where six coefficients may leave 1 − R² = {error:.1e}</source><translation>exakte Strahlen, die für ein einzelnes Bild nicht mehr kosten als eine Anpassung, wo sechs Koeffizienten 1 − R² = {error:.1e} lassen können</translation></message>
 <message><source>exact rays, since {because}</source><translation>exakte Strahlen, denn {because}</translation></message>
 <message><source>exact rays, this field</source><translation>exakt, dieses Feld</translation></message>
 <message><source>exaggeration of tilts and decentres</source><translation>Überhöhung von Kippungen und Dezentrierungen</translation></message>
@@ -2631,7 +2632,7 @@
 <message><source>{nm:.1f} nm</source><translation>{nm:.1f} nm</translation></message>
 <message><source>{nodes}, those that the rims let pass</source><translation>{nodes}, soweit die Ränder sie durchlassen</translation></message>
 <message><source>{numbers} fitted numbers leave 1 − R² ≤ {error:.1e} only</source><translation>{numbers} angepasste Zahlen erreichen nur 1 − R² ≤ {error:.1e}</translation></message>
-<message><source>{numbers} numbers from {rays} rays keep 1 − R² ≤ {error:.1e}, where {allowed:.1e} is allowed and six coefficients would leave more</source><translation>{numbers} Zahlen aus {rays} Strahlen halten 1 − R² ≤ {error:.1e} ein, wo {allowed:.1e} erlaubt ist und sechs Koeffizienten mehr ließen</translation></message>
+<message><source>{numbers} fitted numbers keep 1 − R² ≤ {error:.1e}, where {allowed:.1e} is allowed and six coefficients would leave more</source><translation>{numbers} angepasste Zahlen halten 1 − R² ≤ {error:.1e} ein, wo {allowed:.1e} erlaubt ist und sechs Koeffizienten mehr ließen</translation></message>
 <message><source>{numbers} numbers, {rays} rays; sampling: {words}</source><translation>{numbers} Zahlen, {rays} Strahlen; Abtastung: {words}</translation></message>
 <message><source>{off:.3g} mm from the middle of this picture, which was moved in to stay within the field of the lens</source><translation>{off:.3g} mm von der Mitte dieses Bilds, das nach innen gerückt wurde, um im Feld des Objektivs zu bleiben</translation></message>
 <message><source>{others} and {last}</source><translation>{others} und {last}</translation></message>
