@@ -73,6 +73,8 @@ def sum_once(
     """Return as many waves as blur and window need, and their intensity in units of the unaberrated peak, (y, x)."""
     axis, reach = centred_axis(*window), window_reach_um(*window)
     found = pupil.sample(pupil.counts(reach, quality), reach, watch)
+    if watch:
+        watch.look()
     return found, found.waves.intensity(axis, axis, np.float64 if quality == "settled" else np.float32)
 
 

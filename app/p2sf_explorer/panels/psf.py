@@ -94,7 +94,11 @@ class PsfPanel:
         self._paint(live, self.psf_shown(live))
         if wanted is None:
             self.late.refuse(NOTHING_FINER)
-        elif self._finer.get(wanted) is None:
+        elif self._finer.get(wanted) is not None:
+            self.late.forget()
+        else:
+            if wanted != self.late.asked:
+                self.late.cancel()  # an earlier lens's sum would keep the panel busy for seconds, and is not painted
             self.late.ask(wanted)
 
     def psf_shown(self, live: Live) -> Psf:
