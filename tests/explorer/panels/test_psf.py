@@ -1,10 +1,12 @@
 """The PSF panel: as many samples as pixels once it rests, a badge that promises no more than is known."""
 
 from itertools import pairwise
+from threading import Event
 
 import numpy as np
 import pytest
 
+from p2sf.errors import Cancelled
 from p2sf_explorer.compute.finer import fade
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import default_state, load, shipped_names
@@ -73,6 +75,23 @@ def test_a_finer_picture_that_comes_late_is_kept_but_not_shown(window, qtbot):
     panel._take(wanted, late)
     assert wanted and panel.map.indices is before
     assert panel._finer.get(wanted) is late, "it may have been asked last, and is not asked again"
+
+
+def test_a_sum_for_an_earlier_picture_ends_when_another_is_wanted(window, qtbot, monkeypatch):
+    """As of a lens that is no longer open, which kept the panel busy for up to a minute."""
+    panel, ended = window.panels["psf"], Event()
+
+    def until_cancelled(cancelled, tell):
+        if cancelled.wait(20):
+            ended.set()
+        raise Cancelled("no longer wanted")
+
+    qtbot.waitUntil(lambda: not panel.late.busy)
+    panel.late.submit("an earlier picture", until_cancelled)
+    monkeypatch.setattr(panel, "_finer_request", lambda live: "another picture")
+    monkeypatch.setattr(panel.late, "ask", lambda question: None)
+    panel.show(window.live)
+    qtbot.waitUntil(ended.is_set, timeout=2000)
 
 
 @pytest.mark.parametrize(
