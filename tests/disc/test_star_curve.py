@@ -5,7 +5,7 @@ from math import pi
 import numpy as np
 import pytest
 
-from p2sf.disc.domain import WHOLE
+from p2sf.disc.domain import HALF, WHOLE
 from p2sf.disc.mask import Disc, PupilMask
 from p2sf.disc.open_part import OpenPart, curve_within
 from p2sf.disc.star_curve import StarCurve, curve_between
@@ -41,6 +41,13 @@ def test_nodes_over_a_small_part_have_the_radii_of_the_whole():
     about = circle_seen_from(CIRCLE.xi, CIRCLE.eta).nodes((16, 64))
     mean = CIRCLE.radius**26 * 2 / 28 * np.prod(np.arange(1, 26, 2) / np.arange(2, 27, 2))
     assert about.weight @ (about.xi - CIRCLE.xi) ** 26 == pytest.approx(mean, rel=1e-9)
+
+
+def test_corners_of_half_a_curve_are_known_on_both_sides():
+    """Two circles of radius 0.8 about (0, ±0.3) meet at ξ = ±√(0.8² − 0.3²)."""
+    overlap = curve_within([Disc(0.0, 0.3, 0.8), Disc(0.0, -0.3, 0.8)], HALF)
+    xi, eta = overlap.corner_points(WHOLE)
+    assert np.sort(xi) == pytest.approx([-(0.55**0.5), 0.55**0.5]) and eta == pytest.approx([0, 0], abs=1e-6)
 
 
 def test_lines_are_cut_where_they_cross_the_circle():

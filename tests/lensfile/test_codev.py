@@ -178,6 +178,7 @@ REFUSED = {
     "a special surface": (("  PIM", "  SPS SCN"), "surface 3 is a special surface of type SCN"),
     "a term of no special surface": (("  PIM", "  SCO AR3 1e-3"), "surface 3: coefficient AR3 of a special surface"),
     "a term too high": (("  PIM", "  SPS ODD; SCO C32 1"), "surface 3: coefficient C32"),
+    "a term of a polynomial too high": (("  PIM", "  SPS XYP; SCO C67 1"), "surface 3: coefficient C67"),
     "a radius in x of no toroid": (("  PIM", "  RDX 40"), "surface 3 has a radius or a conic constant in x"),
     "an unknown glass": (("NBK7_SCHOTT", "NNIX7_SCHOTT"), 'glass "NNIX7" of SCHOTT is in no catalogue'),
     "a number that is no glass": (("NBK7_SCHOTT", "1.5168"), "neither a name nor a six-digit code"),

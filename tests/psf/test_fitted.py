@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 
+from p2sf.disc.mask import PupilMask
 from p2sf.disc.quadrature import SETTLED_TOLERANCE, disc_nodes
 from p2sf.disc.zernike import basis, gradient, terms
 from p2sf.errors import GeometryError, SamplingError
-from p2sf.lens.lens import with_aim
+from p2sf.lens.lens import with_aim, with_mask
 from p2sf.lens.source import Source
 from p2sf.lensfile.library import find_lens
 from p2sf.psf.fitted import fit, fitted_psf, sum_fit
@@ -137,6 +138,13 @@ def test_a_psf_says_how_it_was_summed():
     assert 0 < settled.seconds < 60 and settled.wavelength_um == source.wavelength_um and 0 < settled.energy < 1
     coarse = fitted_psf(lens, source, 8, 20 * pixel, 26)
     assert coarse.energy is None  # samples this far apart are no integral
+
+
+def test_rays_that_check_a_fit_behind_a_mask_count_too():
+    """64 rays carry the fit; those through what is open are traced besides."""
+    lens = find_lens("double_gauss_28")
+    behind = fit(with_mask(lens, PupilMask(obscuration=0.3)), Source(field_deg=5.0), 26)
+    assert fit(lens, Source(field_deg=5.0), 26).rays == 64 < behind.rays < 1000
 
 
 def test_a_fit_is_of_the_rays_that_were_aimed():
