@@ -30,7 +30,7 @@ def line(*fields_deg: float) -> Space:
 
 @pytest.mark.parametrize(("field", "r2"), [(0.0, 0.999), (5.0, 0.982), (10.0, 0.874), (14.0, 0.758)])
 def test_the_prediction_bounds_the_distance_from_exact_rays(field, r2):
-    """Of six coefficients by a bound, five to a hundred times the error itself, which saturates; fits keep it small."""
+    """Of six coefficients by a bound, up to a hundred times the error itself, which saturates; `auto` keeps it small."""
     source = p2sf.Source(field_deg=field, wavelength_um=WAVE)
     pitch = whole_pixel_um(DOUBLE_GAUSS, source, 64)
     exact = huygens_psf(DOUBLE_GAUSS, source, 64, pitch)
@@ -38,7 +38,7 @@ def test_the_prediction_bounds_the_distance_from_exact_rays(field, r2):
     error = 1 - r_squared(database_psf(six, source, 64, pitch).values, exact.values)
     assert 1 - error == pytest.approx(r2, abs=1e-3)
     assert error < accuracy(six, DOUBLE_GAUSS).worst < 100 * error
-    assert fits.method == "fitted"
+    assert fits.method == ("fitted" if field else "seidel")
     own = 1 - r_squared(database_psf(fits, source, 64, pitch).values, exact.values)
     assert own < accuracy(fits, DOUBLE_GAUSS).worst < ALLOWED
 
