@@ -24,6 +24,7 @@ from p2sf.paraxial.wavefront import wavefront
 from p2sf.pixel_kernels.pupil_stack import PupilStack, frequency_basis, with_reach
 from p2sf.pupil.clear_curves import CLIPPED, trace_rooms
 from p2sf.pupil.fit import AMPLITUDE, MAP, Level, area_of, fit, fit_terms, level_rays, residuals
+from p2sf.pupil.frequency_pupil import FOLDS
 from p2sf.pupil.seen_mask import mask_seen
 from p2sf.raytrace.aiming import Sources
 from p2sf.raytrace.pencil import all_reaching, in_azimuth, on_sensor
@@ -45,7 +46,8 @@ def pupil_map(lens: Lens, source: Source, method: str, numbers: int | None = Non
 
     It is given in the axes of the source's field.
 
-    Raises GeometryError if rays do not reach the sensor, rims clip all of them, or the image lies at infinity.
+    Raises GeometryError if rays do not reach the sensor, rims clip all of them, their map to frequencies folds, or the
+    image lies at infinity.
     """
     mask, turned = mask_seen(lens, source), seen_from(lens, source.azimuth_deg)
     source = replace(source, azimuth_deg=0.0)
@@ -97,7 +99,7 @@ def pupils_of(
 ) -> PupilStack:
     """Return the pupils of fits, all of the least order from ``order`` on that describes each of them.
 
-    Raises GeometryError where rims clip all rays of a source.
+    Raises GeometryError where rims clip all rays of a source, or its map folds.
     """
     rims, behind = _rims(lens, sources, clip, level.basis.domain), _mask_of(lens, sources)
     (function, left), counts = fits, (0, 0)
@@ -171,10 +173,16 @@ def seidel_pupils(lens: Lens, points: Sequence[Source], clip: bool = False) -> P
 
 
 def _energy(function: DiscFunction, rims: np.ndarray, where: Counts) -> np.ndarray:
-    """Return the energy of fits as `PupilStack` has it: by Parseval ∫amplitude²/|∂f/∂(ξ, η)| dξ dη."""
+    """Return the energy of fits as `PupilStack` has it: by Parseval ∫amplitude²/|∂f/∂(ξ, η)| dξ dη.
+
+    Raises GeometryError where the map of one folds within its rims: there is no such energy.
+    """
     nodes, amplitude = function.domain.nodes(where), function.channels(AMPLITUDE).on(where)[:, 0]
-    light = amplitude**2 / np.abs(area_of(function.channels(MAP).gradient(where)))
-    energy: np.ndarray = np.pi * ((rims > 0).all(1) * light if rims.shape[1] else light) @ nodes.weight
+    area = area_of(function.channels(MAP).gradient(where))
+    clear = (rims > 0).all(1) if rims.shape[1] else np.ones(area.shape, bool)
+    if ((clear & (area > 0)).any(1) & (clear & (area < 0)).any(1)).any():
+        raise GeometryError(FOLDS)
+    energy: np.ndarray = np.pi * (clear * amplitude**2 / np.abs(area)) @ nodes.weight
     return energy
 
 

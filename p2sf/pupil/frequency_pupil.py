@@ -52,6 +52,10 @@ OUTLINE = 4096  # intervals of the edge: chords between them depart from it by 3
 CENTROID_CELLS = 256  # along each side, for the centroid of the light that a mask lets through: 1e-3 of its radius
 PROBE = 33  # points along each axis where slopes are looked for
 
+FOLDS = (
+    "rays of different parts of the pupil arrive in one direction, and the sum of their light has no limit; "
+    "stop the lens down or reduce the field"
+)
 UNFOLLOWED = "no polynomial fits the rays of this pupil; stop the lens down or reduce the field"
 
 
@@ -552,10 +556,7 @@ def _settle(end: PupilEnd, turn_deg: float, data_at: DataAt, orders: Orders = OR
             break
         before = found.residual_waves
     if found.residual_waves == inf:
-        raise GeometryError(
-            "rays of different parts of the pupil arrive in one direction, and the sum of their light has no limit; "
-            "stop the lens down or reduce the field"
-        )
+        raise GeometryError(FOLDS)
     if not found.residual_waves < MOST_RESIDUAL:
         raise GeometryError(UNFOLLOWED)
     return replace(found, rays=traced, edges=end.edges)

@@ -75,7 +75,7 @@ def test_a_window_is_as_wide_as_the_rays_land(name, degrees, half, aim):
 
 @pytest.mark.parametrize(
     ("name", "degrees", "aim"),
-    [("wide_angle_35", 31.5, "paraxial"), ("wide_angle_35", 31.5, "stop"), ("fast_gauss_f14", 15.0, "stop")],
+    [("wide_angle_35", 31.5, "paraxial"), ("wide_angle_35", 27.0, "stop"), ("fast_gauss_f14", 15.0, "stop")],
 )
 def test_polynomials_that_come_back_beyond_the_rim_are_refused(name, degrees, aim):
     """The pupil of these fields fills a part of its frequencies' disc, and some of the rest was taken for pupil too."""
