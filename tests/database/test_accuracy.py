@@ -30,7 +30,7 @@ def line(*fields_deg: float) -> Space:
 
 @pytest.mark.parametrize(("field", "r2"), [(0.0, 0.999), (5.0, 0.982), (10.0, 0.874), (14.0, 0.758)])
 def test_the_prediction_bounds_the_distance_from_exact_rays(field, r2):
-    """Of six coefficients by a bound, up to a hundred times the error itself, which saturates; `auto` keeps it small."""
+    """Of six coefficients by a bound, up to a hundred times the error itself, which saturates; `auto` has little."""
     source = p2sf.Source(field_deg=field, wavelength_um=WAVE)
     pitch = whole_pixel_um(DOUBLE_GAUSS, source, 64)
     exact = huygens_psf(DOUBLE_GAUSS, source, 64, pitch)

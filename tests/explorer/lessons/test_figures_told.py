@@ -554,6 +554,7 @@ SLIPS = {
     ],
     "l5-nyquist": lambda: [1000 / 10, 1000 / 40, 1 / 20, 10],
     "l6-hubble": lambda: [2.2 / 0.55, 2.2, 2 * 2.2, 2.2 * 0.55, 4 * 2.2 / 0.55],
+    "s4-star": lambda: [2 * line_um() / (2 * 7), line_um() / (4 * 7)],
 }
 RIGHT = {
     "l1-airy": lambda: RING * 0.486 * 11,
@@ -562,7 +563,14 @@ RIGHT = {
     "l4-limit": lambda: 1 / (0.00055 * 8),
     "l5-nyquist": lambda: 1000 / 20,
     "l6-hubble": lambda: 2 * hubble_edge_um() / 0.55,
+    "s4-star": lambda: line_um() / (2 * 7),
 }
+
+
+def line_um() -> float:
+    """Return how far rays of W = 1.5 η² land to one side at f/6, µm: the largest ∂W/∂η times 2 N λ of the d line."""
+    eta = np.linspace(-1, 1, 2001)
+    return float(np.abs(np.gradient(1.5 * eta**2, eta)).max()) * 2 * 6 * D
 
 
 def numeric_tasks() -> dict[str, NumericAnswer]:
