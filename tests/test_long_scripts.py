@@ -73,7 +73,7 @@ def test_code_is_counted_without_text():
 COUNTED = """
 from functools import cache, cached_property, lru_cache
 @dataclass
-class Pupil:
+class Waves:
     opd_waves: np.ndarray
 class Trace:
     path: np.ndarray
@@ -91,7 +91,7 @@ plan = lru_cache(maxsize=8)(new_plan)
 
 def test_phases_and_kept_results_are_counted():
     path, tree = Path("p2sf/a.py"), ast.parse(COUNTED)
-    assert [place[2] for place in structure.phases(path, tree)] == ["Pupil", "Wavefront, in neither list"]
+    assert [place[2] for place in structure.phases(path, tree)] == ["Waves", "Wavefront, in neither list"]
     assert structure._faults(list(structure.phases(path, tree))).startswith("; new: Wavefront; gone: Coefficients, ")
     assert [place[2] for place in structure.memoised(path, tree)] == [
         "nodes",

@@ -232,7 +232,6 @@ REGISTRY = (
         "first_order:FirstOrderPanel",
         "compute.views.first_order:first_order",
         minus="compare.differences:tables",
-        by_hand=OF_THE_LENS,
         aligned=Message("Of the aligned lens: paraxial rays leave out tilts, decentres and irregularities."),
     ),
     PanelEntry(
