@@ -84,7 +84,10 @@ class ValueEdit(ShortField):
         """Show a value, unless another is being typed."""
         self.last = text = local(text)
         if not (self.hasFocus() and self.isModified()) and self.text() != text:
+            whole = self.hasSelectedText() and self.selectedText() == self.text()
             self.setText(text)
+            if whole:
+                self.selectAll()  # what is typed next still replaces the number
 
     def _commit(self) -> None:
         self._type(False)
@@ -161,8 +164,10 @@ class ValueEdit(ShortField):
         super().focusOutEvent(event)
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
-        """Ask for the reset."""
+        """Ask for the reset, and select the number, so that typing replaces it; Qt then sees a third click too."""
+        super().mouseDoubleClickEvent(event)
         self.setModified(False)
+        self.selectAll()
         self.reset.emit()
 
 

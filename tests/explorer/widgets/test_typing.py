@@ -86,3 +86,17 @@ def test_a_number_typed_that_is_there_already_is_written_as_numbers_are(window, 
     assert edit.text() == text
     qtbot.keyClick(edit, Qt.Key.Key_Return)
     assert edit.text() == before and not window.banner.isVisible()
+
+
+@pytest.mark.parametrize("clicks", [2, 3])
+def test_what_is_typed_after_a_double_or_triple_click_replaces_the_number(window, qtbot, clicks):
+    window.store.update(f_number=8.0)
+    edit = window.controls.rows["f_number"].edit
+    left = Qt.MouseButton.LeftButton
+    qtbot.mouseClick(edit, left)
+    qtbot.mouseDClick(edit, left)
+    if clicks == 3:
+        qtbot.mouseClick(edit, left)
+    assert window.store.state.optics.f_number != 8.0, "a double click resets"
+    qtbot.keyClicks(edit, "3")
+    assert edit.text() == "3"
