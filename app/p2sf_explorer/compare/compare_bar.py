@@ -10,7 +10,7 @@ from p2sf_explorer.compare.contrasts import LINK_WORDS, contrasts
 from p2sf_explorer.i18n.messages import WINDOW
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.state.limits import CHOICES, LINKABLE
-from p2sf_explorer.state.pinning import link_toggled, pin, swap, unpin
+from p2sf_explorer.state.pinning import b_alone, link_toggled, pin, swap, unpin
 from p2sf_explorer.state.state import State, change
 from p2sf_explorer.store.store import Store
 from p2sf_explorer.widgets.command import Command
@@ -25,6 +25,7 @@ BESIDE = 100  # times the share of the empty room: the words have the width of t
 AIR_PX = 60  # beside the buttons and the differences: words in bold are wider
 SWAP_TIP = "Exchange A and B: the controls then move the other one"
 LINK_TIP = "What moves A and B together"
+STILL = "B is pinned; the controls move A · Swap to move this one"
 SAME = "A and B are the same: move a control, or choose another lens or method"
 
 
@@ -122,9 +123,10 @@ class CompareBar(QFrame):
         self._store.replace(unpin(state) if state.compare.pinned else pin(state))
 
     def exchange(self) -> None:
-        """Exchange A and B, if there is a B."""
-        if self._store.state.compare.pinned:
-            self._store.replace(swap(self._store.state))
+        """Exchange A and B, if there is a B; where it is on screen alone, it stays there, as A."""
+        state = self._store.state
+        if state.compare.pinned:
+            self._store.replace(change(swap(state), shown="a") if b_alone(state) else swap(state))
 
     def next_side(self) -> None:
         """Show the next of A, B, A − B, A | B; pins B first."""
@@ -152,11 +154,11 @@ class CompareBar(QFrame):
             f"<b>{tr(name)}</b>&nbsp; A {marked_up(a)} &nbsp;|&nbsp; B {marked_up(b)}"
             for name, a, b in contrasts(state)
         ]
-        words = " &nbsp;·&nbsp; ".join(parts) or tr(SAME)
+        still = [tr(STILL)] if b_alone(state) else []
+        words = " &nbsp;·&nbsp; ".join(still + (parts or [tr(SAME)]))
         if self.words.text() != words:
-            self._plain = "  ·  ".join(
-                f"{tr(name)}  A {a.text(WINDOW)}  |  B {b.text(WINDOW)}" for name, a, b in contrasts(state)
-            ) or tr(SAME)
+            plain = [f"{tr(name)}  A {a.text(WINDOW)}  |  B {b.text(WINDOW)}" for name, a, b in contrasts(state)]
+            self._plain = "  ·  ".join(still + (plain or [tr(SAME)]))
             self.words.setText(words)
             self._fit()
             self.words.setToolTip("<br>".join(parts))

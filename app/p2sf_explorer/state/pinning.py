@@ -37,6 +37,11 @@ def side_b(state: State) -> State:
     return change(replace(state, optics=b.optics, what_if=b.what_if), pinned=None, shown="a")
 
 
+def b_alone(state: State) -> bool:
+    """Return whether B is on screen and A is not, so that only links let the controls move what is seen."""
+    return state.compare.pinned is not None and state.compare.shown == "b"
+
+
 def with_links(state: State, changes: dict[str, Any]) -> dict[str, Any]:
     """Return changes to A together with what they change in B through the links."""
     b, both = state.compare.pinned, {name: value for name, value in changes.items() if name in state.compare.linked}

@@ -22,6 +22,7 @@ from p2sf_explorer.compute.views.first_order import OF_A, ring_note, rows
 from p2sf_explorer.i18n.messages import WINDOW, said
 from p2sf_explorer.i18n.tr import tr, unbroken
 from p2sf_explorer.state.limits import RINGS
+from p2sf_explorer.state.pinning import b_alone
 from p2sf_explorer.state.scales import with_sign
 from p2sf_explorer.state.state import State
 from p2sf_explorer.store.store import Store
@@ -222,7 +223,16 @@ class Controls(QWidget):
         self.shape.show_state(state, limits)
         self.stopping.show_state(state)
         self.aiming.show_state(state)
+        self._enable(state)
         self._unfold(state)
+
+    def _enable(self, state: State) -> None:
+        """Let move only what is seen to move: where B is on screen alone, what is linked."""
+        still = b_alone(state)
+        for key, row in self.rows.items():
+            row.setEnabled(not still or key in state.compare.linked)
+        for part in (self.stopping, self.aiming, self.focus_button):
+            part.setEnabled(not still)
 
     def show_live(self, live: Live) -> None:
         """Show what follows from the state: heights, sensor position, figures."""

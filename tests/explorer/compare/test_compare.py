@@ -185,6 +185,21 @@ def test_swap_gives_the_controls_the_other_one(both, qtbot):
     assert both.live.state.optics.f_number == 8.0
 
 
+def test_only_links_move_b_where_it_is_on_screen_alone_and_swap_keeps_it_there(both, qtbot):
+    bar, rows = both.compare, both.controls.rows
+    bar.links["field_deg"].trigger()
+    assert rows["f_number"].isEnabled() and not bar.words.text().startswith("B is pinned")
+    qtbot.mouseClick(bar.sides["b"], Qt.MouseButton.LeftButton)
+    assert bar.words.text().startswith("B is pinned; the controls move A · Swap")
+    assert not rows["f_number"].isEnabled() and not both.controls.focus_button.isEnabled()
+    assert rows["field_deg"].isEnabled(), "what is linked moves B too"
+    seen = both.live.psf.values
+    qtbot.mouseClick(bar.swap, Qt.MouseButton.LeftButton)
+    assert both.store.state.compare.shown == "a" and rows["f_number"].isEnabled()
+    assert both.live.state.optics.f_number == 8.0 and np.array_equal(both.live.psf.values, seen)
+    assert not bar.words.text().startswith("B is pinned")
+
+
 def test_what_a_panel_shows_of_b_is_not_put_into_a(both, qtbot):
     """The strip's arrow keys step from the sensor on screen, which is B's; A keeps its own, and a sentence says why."""
     both.store.update(tab="through_focus", sensor_shift_um=30.0, shown="b")

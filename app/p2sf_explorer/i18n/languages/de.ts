@@ -540,6 +540,7 @@
 <message><source>ExP</source><translation>ExP</translation></message>
 <message><source>Exact rays have {exact} λ from peak to valley, the six coefficients {six} λ: these are paraxial, and the rays are too steep for that here; pupil and PSF are of exact rays.</source><translation>Exakte Strahlen haben {exact} λ von Spitze zu Tal, die sechs Koeffizienten {six} λ: diese sind paraxial, und dafür sind die Strahlen hier zu steil; Pupille und PSF zeigen exakte Strahlen.</translation></message>
 <message><source>Exchange A and B</source><translation>A und B vertauschen</translation></message>
+<message><source>B is pinned; the controls move A · Swap to move this one</source><translation>B ist gemerkt; die Regler bewegen A · Tauschen, um dieses zu bewegen</translation></message>
 <message><source>Exchange A and B: the controls then move the other one</source><translation>A und B vertauschen: die Regler bewegen dann das andere</translation></message>
 <message><source>Exit</source><translation>Beenden</translation></message>
 <message><source>Exit pupil</source><translation>Austrittspupille</translation></message>
