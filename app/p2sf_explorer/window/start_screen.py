@@ -14,7 +14,7 @@ from p2sf.image.charts import draw_chart
 from p2sf_explorer.charts.theme import SPACE, Tokens
 from p2sf_explorer.compute.setup import FIRST_LENS
 from p2sf_explorer.files import recent
-from p2sf_explorer.i18n.tr import local, tr
+from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.lessons.lesson import FOLDER, read_lesson
 from p2sf_explorer.lessons.lesson_list import lesson_icon
 from p2sf_explorer.store.store import Store
@@ -22,7 +22,7 @@ from p2sf_explorer.widgets.thumbnail import paint_lens
 from p2sf_explorer.window.foot import Foot
 from p2sf_explorer.window.lens_cards import lens_card
 
-STORY = "One star, as this lens shows it {angle}° off its axis. Drag Field: at 0° the star is round."
+STORY = "One star, as this lens shows it off its axis. Drag Field: at 0° the star is round."
 WAIT_MS, MOVE_MS = 2500, 9000  # long enough to read the sentence; and of the slider's way there and back
 LESSONS = "04_spherical_aberration", "05_coma", "06_astigmatism"
 CHART, CHART_SHAPE = "landscape", (240, 480)
@@ -145,7 +145,7 @@ class StartScreen(QFrame):
 
     def begin(self) -> None:
         """Show the doors and the sentence, and wait for a touch."""
-        self._foot.tell(local(tr(STORY, angle=f"{self._field_deg:g}")))
+        self._foot.tell(tr(STORY))
         self.resize(self._rail.size())
         self.show()
         self.raise_()
@@ -214,7 +214,7 @@ def paint_lessons(painter: QPainter, rect: QRectF, theme: Tokens) -> None:
         if icon := lesson_icon(read_lesson(FOLDER / f"{name}.md"), theme):
             side = min(each, rect.height())
             place = QRectF(rect.left() + (number + 0.5) * each - side / 2, rect.center().y() - side / 2, side, side)
-            icon.paint(painter, place.toRect())
+            painter.drawPixmap(place.toRect(), icon.pixmap(icon.availableSizes()[0]))  # an icon is never enlarged
 
 
 def paint_scene(painter: QPainter, rect: QRectF, theme: Tokens) -> None:

@@ -1,15 +1,17 @@
 """The first start: a picture that moves once, doors beside it, gone at the first touch."""
 
+import re
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import QPoint, QPointF, Qt
-from PySide6.QtGui import QWheelEvent
+from PySide6.QtCore import QPoint, QPointF, QRectF, Qt
+from PySide6.QtGui import QImage, QPainter, QWheelEvent, qGray
 from PySide6.QtWidgets import QApplication
 
 import p2sf_explorer.handbook
+from p2sf_explorer.charts.theme import LIGHT
 from p2sf_explorer.compute.setup import FIRST_LENS, first_state, title, with_lens
 from p2sf_explorer.files import recent
 from p2sf_explorer.i18n.messages import said
@@ -20,7 +22,7 @@ from p2sf_explorer.state.state import change
 from p2sf_explorer.window import reduced_motion
 from p2sf_explorer.window.commands.actions import BEGIN
 from p2sf_explorer.window.lens_cards import FILTERS, lens_tags
-from p2sf_explorer.window.start_screen import DOORS, first_start
+from p2sf_explorer.window.start_screen import DOORS, first_start, paint_lessons
 
 PAGES = Path(p2sf_explorer.handbook.__file__).parent
 
@@ -54,6 +56,20 @@ def test_the_doors_stand_beside_the_picture_and_escape_leaves_no_trace(window, q
     qtbot.keyClick(window, Qt.Key.Key_Escape)
     assert not screen.isVisible() and window.store.state == before
     assert window.foot.sentence.text() == unbroken(said(window.live.dominant))
+
+
+def test_the_sentence_names_no_angle_that_the_moving_field_contradicts(window, screen):
+    assert re.findall(r"\d+", window.foot.sentence.text()) == ["0"], "only where the star is round"
+
+
+@pytest.mark.parametrize("high", [90, 600])
+def test_the_stars_of_the_lessons_fill_the_height_of_their_door_on_every_screen(qapp, high):
+    picture = QImage(3 * high, high, QImage.Format.Format_RGB32)
+    painter = QPainter(picture)
+    paint_lessons(painter, QRectF(picture.rect()), LIGHT)
+    painter.end()
+    rows = [y for y in range(high) if any(qGray(picture.pixel(x, y)) > 2 for x in range(0, 3 * high, 3))]
+    assert rows[-1] - rows[0] > 0.5 * high
 
 
 def test_the_field_goes_to_the_axis_and_back_and_leaves_no_step_of_undo(window, qtbot, screen):

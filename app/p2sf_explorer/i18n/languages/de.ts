@@ -84,7 +84,7 @@
 <message><source>What a lens makes of a scene, near and far</source><translation>Was ein Objektiv aus einer Szene macht, nah und fern</translation></message>
 <message><source>Open my lens</source><translation>Mein Objektiv öffnen</translation></message>
 <message><source>First picture, and where to begin</source><translation>Erstes Bild, und wo es losgeht</translation></message>
-<message><source>One star, as this lens shows it {angle}° off its axis. Drag Field: at 0° the star is round.</source><translation>Ein Stern, wie ihn dieses Objektiv {angle}° neben der Achse zeigt. Feld auf 0° ziehen: Er ist rund.</translation></message>
+<message><source>One star, as this lens shows it off its axis. Drag Field: at 0° the star is round.</source><translation>Ein Stern, wie ihn dieses Objektiv neben der Achse zeigt. Feld auf 0° ziehen: Er ist rund.</translation></message>
 <message><source>Play the slider that moved last (Ctrl+Space; Space on a slider plays that one)</source><translation>Den zuletzt bewegten Regler abspielen (Strg+Leertaste; Leertaste auf einem Regler spielt diesen)</translation></message>
 <message><source>R80 {most} µm</source><translation>R80 {most} µm</translation></message>
 <message><source>R50 {half} µm; both of all light about its centroid; RMS of the rays {rms} µm; {method}</source><translation>R50 {half} µm; beide für alles Licht um seinen Schwerpunkt; RMS der Strahlen {rms} µm; {method}</translation></message>
