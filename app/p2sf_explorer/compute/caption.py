@@ -1,6 +1,7 @@
 """The caption of the stage: lens, field, depth, f-number, wavelength and two figures. Uses no Qt."""
 
 from p2sf_explorer.compute.live import Live
+from p2sf_explorer.compute.pupil import written_rms
 from p2sf_explorer.compute.quantities import DEPTH, F_NUMBER, WAVELENGTH, Quantity
 from p2sf_explorer.compute.setup import ranges
 from p2sf_explorer.state.scales import significant
@@ -19,7 +20,7 @@ def caption(live: Live) -> Parts:
         "depth": _text_of(DEPTH, live),
         "f_number": _text_of(F_NUMBER, live),
         "wavelength": _text_of(WAVELENGTH, live).replace(".0 nm", " nm"),
-        "rms": f"RMS {significant(live.pupil.rms, 2)} λ",
+        "rms": f"RMS {written_rms(live.pupil)} λ",
         "strehl": "" if live.psf.strehl is None else f"Strehl {significant(float(live.psf.strehl), 2)}",
     }
     return {name: found[name] for name in found if found[name] and name in state.display.caption}

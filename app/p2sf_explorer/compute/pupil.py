@@ -26,6 +26,11 @@ def pupil_of(setup: ParaxialSetup, exact: bool, quality: str, clip: bool = False
     return map_of(setup.lens, setup.source, waves, quality, kind=kind)
 
 
+def written_rms(pupil: WavefrontMap) -> Number:
+    """Return the RMS in waves to two digits, as caption and sentence say it."""
+    return Number(significant(pupil.rms, 2))
+
+
 def dominant(pupil: WavefrontMap, coefficients: Coefficients) -> Message:
     """Return what blurs most: an aberration and its share of the variance without piston and tilt (handbook 3.4).
 
@@ -33,7 +38,7 @@ def dominant(pupil: WavefrontMap, coefficients: Coefficients) -> Message:
     are named.
     """
     if pupil.rms**2 < MARECHAL:
-        return Message("Diffraction-limited: RMS {rms:.3f} λ", rms=pupil.rms)
+        return Message("Diffraction-limited: RMS {rms} λ", rms=written_rms(pupil))
     total = sum(pupil.parts.values()) + pupil.rest
     name = max(pupil.parts, key=pupil.parts.__getitem__)
     percent, term = 100 * pupil.parts[name] / total, Message(name)

@@ -10,6 +10,7 @@ from p2sf.paraxial.balance import strongest, variance_parts
 from p2sf.paraxial.wavefront import wavefront
 from p2sf.pupil.wavefront_map import WavefrontMap, disc, map_of, wavefront_of_coefficients
 from p2sf.raytrace.pencil import displayed_opd, pencil, pupil_grid
+from p2sf_explorer.compute.caption import caption
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.pupil import dominant, pupil_of
 from p2sf_explorer.compute.setup import paraxial_setup
@@ -18,6 +19,14 @@ from p2sf_explorer.state.state import State, change, new_state
 from tests.support.waves import rms_about_plane
 
 ZERO = replace(paraxial_setup(State()).coefficients, w40=0.0, w31=0.0, w22=0.0, w20=0.0, wd=0.0, w11=0.0)
+
+
+@pytest.mark.parametrize("f_number", [16.0, 32.0])
+def test_a_diffraction_limited_lens_has_one_rms_in_sentence_and_caption(f_number):
+    found = live(new_state(f_number=f_number, field_deg=0.0))
+    sentence, said = str(found.dominant), caption(found)["rms"]
+    assert sentence == f"Diffraction-limited: {said}"
+    assert float(said.split()[1]) == pytest.approx(found.pupil.rms, rel=0.05)  # two digits
 
 
 @pytest.mark.parametrize("seed", range(4))

@@ -513,7 +513,7 @@
 <message><source>Depth of field: the depths whose blur is no wider than the tolerated one. Paraxial: diameter of the cone from the axial point on the sensor, linear in 1/distance. Exact rays: twice the RMS radius of the spot at the present field.</source><translation>Schärfentiefe: Abstände, deren Unschärfe nicht breiter als erlaubt ist. Paraxial: Durchmesser des Kegels des Achspunkts auf dem Sensor, linear in 1/Abstand. Exakte Strahlen: doppelter RMS-Radius des Spots am jetzigen Feld.</translation></message>
 <message><source>Depth: distance from the source to the first vertex. Half of the slider goes from ten focal lengths to ∞; far away its steps are equal in dioptres, 1/depth. ▾ marks where the lens is focused.</source><translation>Objektabstand: von der Quelle bis zum ersten Scheitel. Die Hälfte des Reglers reicht von zehn Brennweiten bis ∞; in der Ferne ist er gleichmäßig in Dioptrien, 1/Abstand. ▾ zeigt, worauf das Objektiv fokussiert ist.</translation></message>
 <message><source>Depths</source><translation>Abstände</translation></message>
-<message><source>Diffraction-limited: RMS {rms:.3f} λ</source><translation>Beugungsbegrenzt: RMS {rms:.3f} λ</translation></message>
+<message><source>Diffraction-limited: RMS {rms} λ</source><translation>Beugungsbegrenzt: RMS {rms} λ</translation></message>
 <message><source>Discard all edits and return to the lens in the file</source><translation>Alle Änderungen verwerfen und das Objektiv nehmen, wie es in der Datei steht</translation></message>
 <message><source>Discard all your own values</source><translation>Alle eigenen Werte verwerfen</translation></message>
 <message><source>Dismiss</source><translation>Ausblenden</translation></message>
