@@ -35,6 +35,12 @@ def test_a_few_letters_find_what_is_meant(sought, texts, first):
     assert rank(sought, texts)[0] == first
 
 
+def test_scattered_letters_are_no_hit_where_a_whole_word_is():
+    scattered = "Lens: Microscope, telephoto, fisheye"
+    assert rank("mtf", [scattered, "Panel: MTF", "Panel: MTFs of fields"]) == [1, 2]
+    assert rank("mtf", [scattered]) == [0], "without a whole word letters in their order do"
+
+
 def test_letters_that_are_not_there_in_their_order_find_nothing():
     assert score("fsp", "PSF") is None and rank("xyz", ["PSF"]) == []
 

@@ -108,11 +108,16 @@ def typing_errors(one: str, other: str) -> int:
 
 
 def rank(sought: str, texts: Sequence[str], further: Sequence[str] = ()) -> list[int]:
-    """Return the numbers of the texts that fit, the best first, equals in their order."""
-    found = []
+    """Return the numbers of the texts that fit, the best first, equals in their order.
+
+    Where a name has all words that are sought, letters scattered over other texts are no hits.
+    """
+    found, asked = [], set(WORD.findall(sought.casefold()))
+    whole = bool(asked) and any(asked <= set(_words(text)) for text in texts)
     for number, text in enumerate(texts):
         by_words = words_score(sought, text, further[number] if further else "")
-        worths = [worth for worth in (score(sought, text), by_words) if worth is not None]
+        by_letters = None if whole and by_words is None else score(sought, text)
+        worths = [worth for worth in (by_letters, by_words) if worth is not None]
         if worths:
             found.append((-max(worths), number))
     return [number for _, number in sorted(found)]
