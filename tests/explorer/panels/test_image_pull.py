@@ -166,6 +166,10 @@ def test_the_badge_says_the_error_and_depths_have_their_controls(window, image_p
     qtbot.waitUntil(lambda: not image_panel._stale())
     assert f"{100 * image_panel._answer.error:.2g}" in image_panel.widget.readout.text()
     assert row.near.isVisible() and row.near.value() == pytest.approx(0.8) and not row.meaning.isVisible()
+    assert (row.near.text(), row.far.text()) == ("near 0.800 m", "far 10.000 m")
+    for box in (row.near, row.far):
+        edit = box.lineEdit()
+        assert edit.fontMetrics().horizontalAdvance(box.text()) < edit.width(), "nothing of it is cut"
     row.far.setValue(5.0)
     assert window.store.state.photo.far_mm == 5000.0
     window.store.update(photo_depths="/nowhere/map.png")

@@ -41,7 +41,9 @@
 <message><source>What the numbers of the map mean</source><translation>Was die Zahlen der Karte bedeuten</translation></message>
 <message><source>a map of depths means "{meaning}"; choose {choices}</source><translation>eine Karte der Entfernungen bedeutet „{meaning}“; wählen: {choices}</translation></message>
 <message><source>error up to {percent} % of white</source><translation>Fehler bis {percent} % von Weiß</translation></message>
+<message><source>far</source><translation>fern</translation></message>
 <message><source>farthest depth of the photo</source><translation>größte Entfernung des Fotos</translation></message>
+<message><source>near</source><translation>nah</translation></message>
 <message><source>nearest depth of the photo</source><translation>kleinste Entfernung des Fotos</translation></message>
 <message><source>nodes stand at equal steps of 1/distance, and none in {count} gaps</source><translation>die Knoten stehen in gleichen Schritten von 1/Abstand, und keine in {count} Lücken</translation></message>
 <message><source>noise</source><translation>Rauschen</translation></message>

@@ -28,7 +28,7 @@ class DepthRow:
         self._store, self._parent = store, parent
         self.source = chooser((*DEPTH_WORDS.items(), (ANOTHER, "map…")), TIP, parent)
         self.meaning = chooser(tuple(MEANING_WORDS.items()), "What the numbers of the map mean", parent)
-        self.near, self.far = (_distance(words) for words in ("Nearest depth", "Farthest depth"))
+        self.near, self.far = (_distance(*words) for words in (("near", "Nearest depth"), ("far", "Farthest depth")))
         self.scale = self.meaning, self.near, self.far
         self.source.activated.connect(self._choose)
         self.meaning.activated.connect(lambda: store.update(photo_depth_meaning=self.meaning.currentData()))
@@ -67,11 +67,12 @@ class DepthRow:
             self._store.update(photo_depths=path)
 
 
-def _distance(words: str) -> NumberBox:
-    """Return a box of metres."""
+def _distance(name: str, words: str) -> NumberBox:
+    """Return a box of metres with its name before the number."""
     box = NumberBox()
     box.setRange(NEAREST_M, FARTHEST_M)
     box.setDecimals(3)
+    box.setPrefix(f"{tr(name)} ")
     box.setSuffix(" m")
     box.setToolTip(tr(words))
     box.setAccessibleName(tr(words))
