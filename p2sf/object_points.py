@@ -23,7 +23,7 @@ from p2sf.errors import P2SFWarning, RequestError
 from p2sf.lens.source import Source
 from p2sf.messages import Alternatives
 from p2sf.named_arrays import Dims, NamedArrays, NamedAxes, along
-from p2sf.parameters import CAMERA_PARAMETERS, MASK_PARAMETERS, check_finite, check_samples
+from p2sf.parameters import CAMERA_PARAMETERS, MASK_PARAMETERS, check_finite, check_samples, check_whole
 from p2sf.setting import CameraData, Setup, explicit_values, set_up_source
 from p2sf.threads import for_each, one_blas_thread, using_threads
 
@@ -42,6 +42,7 @@ if TYPE_CHECKING:
 OF_THE_SOURCE = "depth_mm", "field_x_deg", "field_deg", "wavelength_nm"
 AXES = (*(each.name for each in (*CAMERA_PARAMETERS, *MASK_PARAMETERS)), *OF_THE_SOURCE)
 """What may be an axis, in the order of the axes."""
+RINGS = 1, 1000  # of rays: three million at most
 
 One = Literal["one"]
 Several = Literal["several"]
@@ -120,6 +121,7 @@ def _terms(given: Arguments) -> NamedAxes:
 def _rings(given: Arguments) -> NamedAxes:
     from p2sf.raytrace.pencil import hexapolar
 
+    check_whole("rings", given["rings"], *RINGS)
     return along("ray", np.arange(hexapolar(given["rings"])[0].size))
 
 
@@ -519,11 +521,13 @@ class ObjectPoints(Generic[Count]):
 
         ``xi``, ``eta``: pupil coordinates; ``x_um``, ``y_um``: where they meet the sensor, µm from the chief ray, NaN
         of one that does not; ``phase``: waves, as diffraction sums take them; ``light``: relative energy, behind the
-        mask in the stop. See `p2sf.raytrace.pencil.Rays`. Raises GeometryError where the chief ray does not arrive.
+        mask in the stop. See `p2sf.raytrace.pencil.Rays`. Raises GeometryError where the chief ray does not arrive,
+        RequestError for other numbers of rings than 1 to 1000.
         """
         from p2sf.pupil.landing import mask_of_rays
         from p2sf.raytrace.pencil import hexapolar, pencil
 
+        check_whole("rings", rings, *RINGS)
         lens, source = self.setup.lens, self.setup.source
         xi, eta = hexapolar(rings)
         mask = mask_of_rays(lens, source)

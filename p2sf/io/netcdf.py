@@ -22,7 +22,8 @@ def write_netcdf(handle: BinaryIO, arrays: NamedAxes, meta: Mapping[str, Any]) -
     content = io.BytesIO()
     file = netcdf_file(content, "w")
     for name, value in {**attributes(meta), META: json.dumps(meta)}.items():
-        setattr(file, name, _value(value))
+        # Names of the writer's own, such as "mode", hold no attribute of a file.
+        setattr(file, f"meta_{name}" if hasattr(file, name) else name, _value(value))
     for dims, values in arrays.values():
         for dim, count in zip(dims, values.shape, strict=True):
             if dim not in file.dimensions:
@@ -52,4 +53,5 @@ def _value(value: Any) -> Any:
     """Return an attribute as the format has it: UTF-8, a double or four bytes."""
     if isinstance(value, str):
         return value.encode() or b" "  # an empty text has no place in it
-    return np.float64(value) if isinstance(value, float) else np.int32(value)
+    whole = not isinstance(value, float) and abs(value) <= np.iinfo(np.int32).max
+    return np.int32(value) if whole else np.float64(value)

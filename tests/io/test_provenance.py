@@ -79,6 +79,20 @@ def test_a_file_is_understood_in_a_fresh_process_without_the_lens(psf, tmp_path,
     np.testing.assert_array_equal(np.load(tmp_path / "values.npy"), kept)
 
 
+@pytest.mark.parametrize("fact", [{"mode": "x"}, {"variables": 3.5}, {"fp": "x"}, {"version_byte": 7}, {"run": 2**40}])
+def test_facts_of_any_name_and_size_are_kept(psf, tmp_path, fact):
+    """As are names that the writer of the format has itself, and whole numbers beyond four bytes."""
+    _, meta = read_psf(write_psf(psf, tmp_path / "psf.nc", fact))
+    assert fact.items() <= meta.items()
+
+
+@pytest.mark.parametrize("rings", [0, -1, 2.5, 1001])
+@pytest.mark.parametrize("field_deg", [4.0, [0.0, 4.0]])
+def test_rings_of_rays_are_a_number_of_rings(rings, field_deg):
+    with pytest.raises(p2sf.RequestError, match="rings"):
+        CAMERA.at(field_deg=field_deg).rays(rings)
+
+
 def test_other_programs_find_the_same_samples_and_record(psf, tmp_path):
     """By xarray, astropy and tifffile alone."""
     xarray, tifffile = pytest.importorskip("xarray"), pytest.importorskip("tifffile")
