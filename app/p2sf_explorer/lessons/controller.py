@@ -36,6 +36,7 @@ PAGE_LINES = 29  # of text: a page that is higher leaves the sliders more, up to
 Finder = Callable[[str], "tuple[dict[str, Lesson], tuple[P2SFError, ...]]"]
 """What finds lessons in a language: by name, and the errors of files that are none."""
 OPEN = "First answer the question of this page."  # in place of what blurs most, which may be the answer
+TO_VOTE = "Page Down: vote"  # while presenting
 NO_LESSON = Message("There is no lesson under way; begin one, or press Test my lesson where you make one")
 NOTHING_BEFORE = Message("The window began with this lesson, so there is nothing to restore; its lens stays")
 UNTRANSLATED = Message("This lesson has not been translated; here is the original")
@@ -105,6 +106,7 @@ class LessonController(QObject):
         room.column.splitterMoved.connect(self._keep_shares)
         self._pointed_at: tuple[str, int, str] = "", 0, ""
         self.presenting, self._shared_for = False, ("", 0)
+        self.turn: Callable[[int], None] = self.move  # what *Back* and *Next* of the page do
         self._by_hand = False  # the shares of page and sliders are a person's
         self.store.changed.connect(self.follow)
         self.follow(self.store.state)
@@ -300,7 +302,7 @@ class LessonController(QObject):
 
     def _show_step(self, lesson: "Lesson", number: int, told: bool) -> None:
         from p2sf_explorer.lessons.lesson_panel import StepFrame
-        from p2sf_explorer.lessons.task import GoalAnswer
+        from p2sf_explorer.lessons.task import ChoiceAnswer, GoalAnswer
 
         if self.panel is None:
             return
@@ -309,11 +311,14 @@ class LessonController(QObject):
             self.desk.note_told(lesson, number)
         view = self.desk.view(lesson, task) if task else None
         by_hand = task is not None and isinstance(task.answer, GoalAnswer)
+        to_vote = self.presenting and task is not None and isinstance(task.answer, ChoiceAnswer)
         self._tell(tr(OPEN) if view and not view.closed and not by_hand else "")
         may_ask = view is None or (not view.silent and (view.remaining is None or view.closed))
         lessons = self.lessons()
         blocks = ((name, lessons[name].title) for name in lesson.lessons if name in lessons) if number == 0 else ()
-        frame = StepFrame(told and may_ask, may_ask, self._end(lesson.name), tuple(blocks))
+        frame = StepFrame(
+            told and may_ask, may_ask, self._end(lesson.name), tuple(blocks), tr(TO_VOTE) if to_vote else ""
+        )
         self.panel.show_step(lesson, number, frame)
         self.desk.show(lesson, number)
 
@@ -364,7 +369,7 @@ class LessonController(QObject):
         made.presenting = self.presenting
         self.desk.serve(made.task)
         made.chosen.connect(self.begin)
-        made.moved.connect(self.move)
+        made.moved.connect(lambda by: self.turn(by))
         made.asked.connect(self.reveal)
         made.left.connect(self.leave)
         self._room.column.insertWidget(0, made)
@@ -385,6 +390,7 @@ class LessonController(QObject):
         self.presenting = on
         if self.panel:
             self.panel.presenting = on
+            self.follow(self.store.state)
         QTimer.singleShot(0, self._share)
 
     def _share(self) -> None:

@@ -9,7 +9,7 @@ from PySide6.QtCore import QEvent, QObject, QRect, Qt
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QWidget
 
-from p2sf_explorer.lessons.hall_card import ASKED, HallCard, Phase, phases
+from p2sf_explorer.lessons.hall_card import ASKED, HallCard, Phase, options_of, phases
 from p2sf_explorer.lessons.votes import Votes
 from p2sf_explorer.state.state import State
 from p2sf_explorer.widgets.command import Command
@@ -74,6 +74,7 @@ class Hall(QObject):
     def present(self, on: bool, room: QRect | None) -> None:
         """Begin or end presenting; ``room`` is where notes may stand on a second screen, None where there is none."""
         self.presenting = on
+        self._teaching.turn = self.go if on else self._teaching.move
         self._teaching.present(on)
         self._follow(self._store.state)
         if on and room and self._lesson():
@@ -136,7 +137,9 @@ class Hall(QObject):
             self._store.replace(apply_changes(lesson.state(self._step[1], self._store.state), step.task.see))
 
     def vote(self, place: int) -> None:
-        """Count a raised hand for the option at a place."""
+        """Count a raised hand for the option at a place; the first one opens the vote."""
+        if not self.card.isVisible() and place < self._options:
+            self.go(1)
         if place < self.card.voting:
             self.votes = self.votes.with_counted((*self.votes.counted, place))
             self.card.show_votes(self.votes)
@@ -160,14 +163,22 @@ class Hall(QObject):
 
     def _free_keys(self) -> None:
         """Let letters count votes only while there is something to vote for, and Return type only a reason."""
-        on, options = self.presenting and self._lesson() is not None, self.card.voting
+        on, options = self.presenting and self._lesson() is not None, self._options
         for shortcut in self.shortcuts:
             shortcut.setEnabled(on)
         for place, shortcut in enumerate(self.hands):
             shortcut.setEnabled(on and place < options)
         self.black_key.setEnabled(on and not options)
-        self.take_back.setEnabled(on and options > 0)
+        self.take_back.setEnabled(on and self.card.voting > 0)
         self.reason.setEnabled(on and self.card.isVisible() and not self.card.because.isHidden())
+
+    @property
+    def _options(self) -> int:
+        """How many options of the step are voted for now, or as soon as a letter opens the vote."""
+        lesson = self._lesson()
+        if self.card.isVisible() or not lesson:
+            return self.card.voting
+        return len(options_of(lesson.steps[self._step[1]], False))
 
     def _lesson(self) -> "Lesson | None":
         name = self._store.state.lesson.name

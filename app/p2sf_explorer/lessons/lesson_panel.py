@@ -22,13 +22,14 @@ LINE_PX = 15.0  # height of a line of text at scale 1
 class StepFrame:
     """What goes with a step: whether its answer is ``told``, or may be asked for, and where *Next* at the end leads.
 
-    ``blocks`` are names and titles of the lessons that a lecture plays.
+    ``blocks`` are names and titles of the lessons that a lecture plays; ``key`` says which key leads on.
     """
 
     told: bool
     may_ask: bool = True
     end: str = ""
     blocks: tuple[tuple[str, str], ...] = ()
+    key: str = ""
 
 
 class LessonPanel(QFrame):
@@ -158,7 +159,7 @@ class LessonPanel(QFrame):
             label.setVisible(bool(text))
         self.reveal.setText(tr("Show the solution") if step.task else tr("Show the answer"))
         self.reveal.setVisible(bool(step.question) and not told and frame.may_ask)
-        self.count.setText(tr("step {k} of {n}", k=number + 1, n=last + 1))
+        self.count.setText(" · ".join(filter(None, (tr("step {k} of {n}", k=number + 1, n=last + 1), frame.key))))
         self.progress.show_step(number, last + 1)
         self.back.setEnabled(number > 0)
         self.next.setText(tr("Next") if number < last else frame.end)

@@ -4,7 +4,7 @@ import pytest
 from PySide6.QtCore import QPoint, QRect, Qt
 from PySide6.QtWidgets import QApplication
 
-from p2sf_explorer.lessons.hall_card import SECONDS, options_of
+from p2sf_explorer.lessons.hall_card import SECONDS, Phase, options_of
 from tests.explorer.course.test_tasks import LESSON, STEP
 from tests.support.windows.windows import at_rest
 
@@ -92,6 +92,24 @@ def test_letters_count_two_votes_and_backspace_takes_the_last_back(window, qtbot
     assert hall.black.isVisible()
 
 
+@pytest.mark.parametrize("key", [Qt.Key.Key_A, Qt.Key.Key_B, Qt.Key.Key_C])
+def test_a_letter_opens_the_vote_and_counts(window, qtbot, hall, key):
+    count = window.teaching.panel.count
+    assert count.isVisible() and count.text().endswith("Page Down: vote")
+    press(qtbot, window, key)
+    assert hall.card.phase is Phase.FIRST and hall.card.count.text().endswith(": 1")
+    assert hall.votes.of(key - Qt.Key.Key_A) == (1, 0) and not hall.black.isVisible()
+
+
+def test_next_on_the_page_leads_through_the_vote_only_while_presenting(window, hall, teaching):
+    place = window.store.state.lesson
+    teaching.panel.next.click()
+    assert hall.card.isVisible() and window.store.state.lesson == place
+    window.presentation.stop()
+    teaching.panel.next.click()
+    assert window.store.state.lesson.step == place.step + 1
+
+
 def test_another_question_begins_without_votes(window, qtbot, hall):
     press(qtbot, window, Qt.Key.Key_PageDown, Qt.Key.Key_A, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown)
     assert hall.card.count.text().endswith(": 0")
@@ -142,8 +160,8 @@ def test_nothing_that_is_shown_in_the_hall_is_noted_as_a_students_answer(window,
 
 def test_the_screen_is_black_and_comes_back_where_it_was(window, qtbot, hall):
     place = window.store.state.lesson
-    for key in (Qt.Key.Key_B, Qt.Key.Key_Period, Qt.Key.Key_PageDown):
-        press(qtbot, window, Qt.Key.Key_B)
+    for key in (Qt.Key.Key_Period, Qt.Key.Key_PageDown):
+        press(qtbot, window, Qt.Key.Key_Period)
         assert hall.black.isVisible() and hall.black.size() == window.size()
         press(qtbot, window, key)
         assert not hall.black.isVisible() and window.store.state.lesson == place and not hall.card.isVisible()

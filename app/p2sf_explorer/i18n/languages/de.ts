@@ -134,6 +134,7 @@
 <message><source>First click on the picture at the height that you expect.</source><translation>Klicken Sie zuerst im Bild auf die Höhe, die Sie erwarten.</translation></message>
 <message><source>"{form}" cannot be marked; mark one of {names}</source><translation>„{form}“ lässt sich nicht markieren; markieren Sie eines von {names}</translation></message>
 <message><source>First answer the question of this page.</source><translation>Beantworten Sie zuerst die Frage dieser Seite.</translation></message>
+<message><source>Page Down: vote</source><translation>Bild ab: Abstimmung</translation></message>
 <message><source>Item</source><translation>Frage</translation></message>
 <message><source>Students</source><translation>Personen</translation></message>
 <message><source>Right before</source><translation>Vorher richtig</translation></message>
