@@ -26,6 +26,11 @@ def caption(live: Live) -> Parts:
     return {name: found[name] for name in found if found[name] and name in state.display.caption}
 
 
+def without_figures(parts: Parts) -> Parts:
+    """Return the parts without those that a question may ask for: RMS and Strehl ratio."""
+    return {name: text for name, text in parts.items() if name not in ("rms", "strehl")}
+
+
 def field_text(state: State) -> str:
     """Return the field angle, with that along x where there is one."""
     aside, up = (f"{angle:.4g}°".replace("-", "−") for angle in (state.optics.field_x_deg, state.optics.field_deg))

@@ -54,6 +54,11 @@ def warnings(
     return tuple(message for message in found if message)
 
 
+def without_alterations(found: tuple[Message, ...], setup: ParaxialSetup) -> tuple[Message, ...]:
+    """Return the sentences without the one that coefficients are altered, which answers what is seen in a star."""
+    return tuple(message for message in found if message != _by_hand(setup))
+
+
 @lru_cache(maxsize=16)
 def _lens_faults(lens: Lens) -> tuple[Message, ...]:
     """Return what no workshop could make: the first fault, and how many there are."""

@@ -68,7 +68,8 @@ class LessonRoom:
     """The parts of the window that a lesson uses.
 
     The page of the lesson stands in the ``column`` above the ``sliders``; what is expected is marked on the ``stage``.
-    ``tell`` says something under the stage in place of what blurs most, "" for nothing.
+    ``tell`` says something under the stage in place of what blurs most, and RMS, Strehl ratio and
+    what is altered stay untold until "" ends it.
     """
 
     column: QSplitter
@@ -106,6 +107,7 @@ class LessonController(QObject):
         room.column.splitterMoved.connect(self._keep_shares)
         self._pointed_at: tuple[str, int, str] = "", 0, ""
         self.presenting, self._shared_for = False, ("", 0)
+        self.told_in_hall = "", 0  # the step whose question a hall has seen answered
         self.turn: Callable[[int], None] = self.move  # what *Back* and *Next* of the page do
         self._by_hand = False  # the shares of page and sliders are a person's
         self.store.changed.connect(self.follow)
@@ -312,7 +314,8 @@ class LessonController(QObject):
         view = self.desk.view(lesson, task) if task else None
         by_hand = task is not None and isinstance(task.answer, GoalAnswer)
         to_vote = self.presenting and task is not None and isinstance(task.answer, ChoiceAnswer)
-        self._tell(tr(OPEN) if view and not view.closed and not by_hand else "")
+        told_in_hall = (lesson.name, number) == self.told_in_hall
+        self._tell(tr(OPEN) if view and not (view.closed or by_hand or told_in_hall) else "")
         may_ask = view is None or (not view.silent and (view.remaining is None or view.closed))
         lessons = self.lessons()
         blocks = ((name, lessons[name].title) for name in lesson.lessons if name in lessons) if number == 0 else ()
@@ -387,7 +390,7 @@ class LessonController(QObject):
 
     def present(self, on: bool) -> None:
         """Keep the question and one slider in view while presenting, or share the column as before."""
-        self.presenting = on
+        self.presenting, self.told_in_hall = on, ("", 0)
         if self.panel:
             self.panel.presenting = on
             self.follow(self.store.state)

@@ -133,6 +133,9 @@ class Hall(QObject):
         self.card.show_phase(step, phase, self.votes, marked)
         self._free_keys()
         answers = [one for one in phases(step) if one not in ASKED]
+        if phase is answers[0]:
+            self._teaching.told_in_hall = self._step
+            self._teaching.follow(self._store.state)
         if lesson and step.task and step.task.see and phase is answers[0]:
             self._store.replace(apply_changes(lesson.state(self._step[1], self._store.state), step.task.see))
 

@@ -12,7 +12,6 @@ from p2sf.errors import P2SFError
 from p2sf.messages import Message
 from p2sf.psf.methods import AUTO, METHODS
 from p2sf_explorer.charts.theme import Tokens
-from p2sf_explorer.compute.live import Live
 from p2sf_explorer.i18n.messages import said
 from p2sf_explorer.i18n.tr import tr, unbroken
 from p2sf_explorer.state.limits import CHOICES
@@ -196,9 +195,9 @@ class StatusLine(QWidget):
         row.setContentsMargins(4, 0, 4, 0)
         row.addWidget(self.warning, 1)
 
-    def show_live(self, live: Live) -> None:
+    def show_warnings(self, warnings: tuple[Message, ...]) -> None:
         """Show the warnings of an answer."""
-        sentences = [said(warning) for warning in live.warnings]
+        sentences = [said(warning) for warning in warnings]
         text = "   ".join(f"⚠ {sentence}" for sentence in sentences)
         if self.warning.text() != text:
             self.warning.set_text(text, "warning", shorten(sentences))

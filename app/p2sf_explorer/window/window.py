@@ -25,10 +25,11 @@ from p2sf_explorer.charts.theme import SPACE, Tokens, palette, screen_scale, sty
 from p2sf_explorer.compare.compare_bar import CompareBar
 from p2sf_explorer.compare.comparison import Answers, answers
 from p2sf_explorer.compute import live as compute
-from p2sf_explorer.compute.caption import caption
+from p2sf_explorer.compute.caption import caption, without_figures
 from p2sf_explorer.compute.deferred_sums import Found, Request, SumCache, answer_to
 from p2sf_explorer.compute.live import Live
 from p2sf_explorer.compute.setup import first_state
+from p2sf_explorer.compute.warnings import without_alterations
 from p2sf_explorer.course.course import Course
 from p2sf_explorer.files.file_watcher import FileWatcher
 from p2sf_explorer.i18n.messages import said
@@ -103,6 +104,7 @@ class MainWindow(QMainWindow):
         self.setAcceptDrops(True)
         self.store = Store(state or State(), self)
         self.live: Live | None = None
+        self._asked = False
         self._answers: Answers | None = None
         self.display = place_panels(self.store.state.display, tuple(PANELS))
         self._placed_from: Display | None = None
@@ -144,7 +146,7 @@ class MainWindow(QMainWindow):
         self.memory_trim, self.sharing = MemoryTrim(self), Sharing(self.store, self)
         self.drop_frame = DropFrame(self)
         self.file_watcher = FileWatcher(self.store, self._read_again, self)
-        self.lesson_room = LessonRoom(self.left_parts, self.controls, self.room.stage, self.foot.tell)
+        self.lesson_room = LessonRoom(self.left_parts, self.controls, self.room.stage, self._tell)
         self.teaching = LessonController(self.store, self, self.lesson_room, lambda: self._theme, _lectures)
         self.hall = Hall(self.teaching, self.room.stage, self)
         self.course = Course(self.store, self.teaching, lambda: self._theme, self)
@@ -280,13 +282,27 @@ class MainWindow(QMainWindow):
         self.top.tolerance.show_live(live)
         self.controls.show_live(self._answers.a)
         self.foot.show_live(self._answers.a)
-        self.caption.show_parts(caption(live), state.display.caption, live.quality == "preview")
+        self._show_figures(live)
         for key in self._visible():
             paint(self.panels[key], key, live)
         self._show_second(self._answers.beside)
-        self.status.show_live(live)
         self._sum(state, self._answers.pending)
         self.measuring.watch(live)
+
+    def _tell(self, words: str) -> None:
+        """Say something under the stage; as long as it is said, nothing else there answers the question it tells of."""
+        self._asked = bool(words)
+        self.foot.tell(words)
+        if self.live:
+            self._show_figures(self.live)
+
+    def _show_figures(self, live: Live) -> None:
+        """Show the caption and the warnings, while a question is open without what may be its answer."""
+        parts, found = caption(live), live.warnings
+        if self._asked:
+            parts, found = without_figures(parts), without_alterations(found, live.setup)
+        self.caption.show_parts(parts, live.state.display.caption, live.quality == "preview")
+        self.status.show_warnings(found)
 
     def _show_second(self, beside: Live | None) -> None:
         """Show B beside A on the stage, or A alone there."""

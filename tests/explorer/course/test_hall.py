@@ -110,6 +110,12 @@ def test_next_on_the_page_leads_through_the_vote_only_while_presenting(window, h
     assert window.store.state.lesson.step == place.step + 1
 
 
+def test_figures_stay_untold_until_the_hall_has_voted(window, qtbot, hall):
+    assert "RMS" not in window.caption.text
+    press(qtbot, window, *TO_ANSWER)
+    assert "RMS" in window.caption.text
+
+
 def test_another_question_begins_without_votes(window, qtbot, hall):
     press(qtbot, window, Qt.Key.Key_PageDown, Qt.Key.Key_A, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown)
     assert hall.card.count.text().endswith(": 0")

@@ -181,6 +181,29 @@ def test_the_line_under_the_stage_does_not_give_the_answer_while_a_question_is_o
     assert line.text() not in ("", OPEN)
 
 
+def test_an_open_question_leaves_out_figures_and_what_is_altered(window, qtbot, teaching, at):
+    at("choice")
+    at_rest(window, qtbot)
+    window.store.update(added_waves=(1.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+    at_rest(window, qtbot)
+    assert "RMS" not in window.caption.text and "Strehl" not in window.caption.text
+    assert "nm" in window.caption.text and "What-if" not in window.status.warning.text()
+    teaching.leave()
+    window.store.update(added_waves=(1.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+    at_rest(window, qtbot)
+    assert "RMS" in window.caption.text and "What-if" in window.status.warning.text()
+
+
+def test_figures_come_back_with_the_answer(window, qtbot, teaching, at):
+    panel = at("choice")
+    at_rest(window, qtbot)
+    assert "RMS" not in window.caption.text
+    panel.field.show_answer(str(LESSON.steps[STEP["choice"]].task.answer.right + 1))
+    panel.check.click()
+    at_rest(window, qtbot)
+    assert "RMS" in window.caption.text
+
+
 def test_items_are_moved_into_order_by_buttons(teaching, at):
     panel = at("order")
     field = panel.field
