@@ -99,9 +99,9 @@ def test_what_cannot_be_written_is_one_sentence(tmp_path, capsys):
 
 
 @pytest.mark.slow
-def test_the_command_writes_seven_pairs_of_sheets(tmp_path):
+def test_the_command_writes_nine_pairs_of_sheets(tmp_path):
     assert main(["course", "-o", str(tmp_path)]) == 0
-    assert len(list(tmp_path.glob("*.pdf"))) == 14 and len(list(tmp_path.glob("lecture_?_?.json"))) > 40
+    assert len(list(tmp_path.glob("*.pdf"))) == 18 and len(list(tmp_path.glob("lecture_?_?.json"))) > 40
 
 
 def test_lines_break_between_words_and_keep_their_lettering():
