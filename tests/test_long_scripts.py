@@ -92,7 +92,9 @@ plan = lru_cache(maxsize=8)(new_plan)
 def test_phases_and_kept_results_are_counted():
     path, tree = Path("p2sf/a.py"), ast.parse(COUNTED)
     assert [place[2] for place in structure.phases(path, tree)] == ["Waves", "Wavefront, in neither list"]
-    assert structure._faults(list(structure.phases(path, tree))).startswith("; new: Wavefront; gone: Cells, Coefficients, ")
+    assert structure._faults(list(structure.phases(path, tree))).startswith(
+        "; new: Wavefront; gone: Cells, Coefficients, "
+    )
     assert [place[2] for place in structure.memoised(path, tree)] == [
         "nodes",
         "terms",

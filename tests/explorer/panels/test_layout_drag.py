@@ -6,7 +6,7 @@ from math import inf, isinf
 import numpy as np
 import pytest
 from PySide6.QtCore import QEvent, QPointF, Qt
-from PySide6.QtGui import QMouseEvent
+from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPixmap, QPolygonF
 from PySide6.QtWidgets import QApplication
 
 from p2sf.glass.media import MIRROR
@@ -17,13 +17,14 @@ from p2sf.lensfile.toml.lens import lens_to_toml
 from p2sf.paraxial.bending import shape_factor, thin_power
 from p2sf.paraxial.pupils import f_number
 from p2sf.paraxial.seidel import coefficients
+from p2sf_explorer.charts.theme import DARK
 from p2sf_explorer.compute.glass_outlines import vertices
 from p2sf_explorer.compute.layout import layout
 from p2sf_explorer.compute.setup import load, paraxial_setup, prescription, ranges, with_lens
 from p2sf_explorer.panels.layout import source_point
 from p2sf_explorer.panels.layout.grips import drag, glass_runs, group_of, sensor_grip, stop_grips, surface_grips
 from p2sf_explorer.panels.layout.object_space import object_space
-from p2sf_explorer.panels.layout.panel import LayoutPanel
+from p2sf_explorer.panels.layout.panel import LayoutPanel, paint_mirror
 from p2sf_explorer.panels.layout.source_point import space_of
 from p2sf_explorer.state.state import change
 from p2sf_explorer.store.store import Store
@@ -464,3 +465,12 @@ def test_an_edge_that_is_dragged_lies_under_the_pointer_by_the_surface_s_own_con
     away = 0.8 * (grip.z - vertices(lens)[number - 1])
     surface = prescription(drag(grip, start, vertices(lens)[number - 1] + away, grip.y)).surfaces[number - 1]
     assert float(surface.sag(0.0, grip.y)) == pytest.approx(away, rel=1e-3)
+
+
+def test_a_mirror_far_larger_than_the_view_is_painted(qtbot):
+    """Random hands made one of 10¹² pixels, whose hatching took a terabyte."""
+    picture = QPixmap(100, 100)
+    picture.fill(QColor("black"))
+    with QPainter(picture) as painter:
+        paint_mirror(painter, QPolygonF([QPointF(50, -1e12), QPointF(50, 1e12)]), 1, DARK)
+    assert picture.toImage().pixelColor(50, 50) != QColor("black")

@@ -355,7 +355,8 @@ def paint_mirror(painter: QPainter, line: QPolygonF, behind: int, theme: Tokens)
     painter.setPen(QPen(QColor(theme.glass_edge), theme.scale))
     across = np.array([line.at(k).toTuple() for k in range(line.size())])
     travelled = np.append(0.0, np.cumsum(np.hypot(*np.diff(across, axis=0).T)))
-    places = np.arange(theme.px(HATCH_PX) / 2, travelled[-1], theme.px(HATCH_PX))
+    step = max(theme.px(HATCH_PX), travelled[-1] / MOST_HATCHES)
+    places = np.arange(step / 2, travelled[-1], step)
     length = theme.px(HATCH_PX) * 0.7
     for x, y in zip(*(np.interp(places, travelled, column) for column in across.T), strict=True):
         painter.drawLine(QPointF(x, y), QPointF(x + behind * length, y + length))
@@ -375,6 +376,7 @@ def paint_ideal_lens(painter: QPainter, line: QPolygonF, gathers: bool, theme: T
 
 ARROW_PX = 6  # an ideal lens's arrowhead along and across, at scale 1
 HATCH_PX = 8  # from one line of a mirror's hatching to the next, at scale 1
+MOST_HATCHES = 2000  # of one mirror, which may be 10¹² pixels long in a view of a far smaller lens
 ROOM = 1.22  # of the lens's length with the sensor, right of the break of the axis
 ASIDE = 0.3  # of the room that is left over, behind the sensor
 
