@@ -337,7 +337,9 @@ def _figure(name: str, lens: Any, source: Any, camera: dict[str, Any], **how: An
     import p2sf
 
     if hasattr(p2sf.Camera, "at"):
-        return getattr(p2sf.Camera(lens, **camera).at(source), name)(**how)
+        of_figure = {part: camera[part] for part in camera if part == "clip"}
+        of_camera = {part: camera[part] for part in camera if part != "clip"}
+        return getattr(p2sf.Camera(lens, **of_camera).at(source), name)(**how, **of_figure)
     former = "encircled_energy" if name == "energy" else name
     return getattr(p2sf, former)(lens, source, **how, **camera)
 
