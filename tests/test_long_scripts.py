@@ -1,6 +1,8 @@
 """What compares versions finds what differs, and what counts the program counts it."""
 
 import ast
+import subprocess
+import sys
 from itertools import islice
 from math import inf
 from pathlib import Path
@@ -9,6 +11,17 @@ import numpy as np
 import pytest
 
 from tests.long import breaks, golden, mutation, structure, walks
+
+
+def test_every_script_and_benchmark_can_be_imported():
+    """In a process of its own: some set the environment of Qt. What they ask of the program by its name is there."""
+    files = [path for folder in ("long", "benchmarks") for path in (structure.HERE / "tests" / folder).rglob("*.py")]
+    names = [".".join(path.relative_to(structure.HERE).with_suffix("").parts) for path in files if path.stem[0] != "_"]
+    script = f"import importlib\nfor name in {sorted(names)}:\n    importlib.import_module(name)"
+    run = subprocess.run(
+        [sys.executable, "-c", script], cwd=structure.HERE, capture_output=True, text=True, check=False
+    )
+    assert len(names) > 50 and run.returncode == 0, run.stderr[-2000:]
 
 
 def test_a_difference_is_judged_by_the_larger_value():

@@ -32,7 +32,7 @@ from p2sf.raytrace.ray_field import steepness
 # times their flatness (`flatness_of`), by which errors count more there: 1.7 and 1.2 over 106 and 93 random states.
 SAFETY = {"seidel": 3.0, "fitted": 8.0}
 TRACED_ERROR = 5e-5  # 1 − R², largest over the stored rows 6e-7, over 300 random points 3e-5
-EDGE_ERROR = 1e-4  # over a pupil bounded by rims or lost rays (`traced.FALLBACK_TOLERANCE`)
+EDGE_ERROR = 1e-4  # over a pupil bounded by rims or lost rays (`traced.EDGE_TOLERANCE`)
 ALLOWED = 0.01  # 1 − R² that may be missed where nothing else is asked for
 CAUTION = 1e-3  # 1 − R² of plane waves above which R² refers to spherical ones
 VECTOR_NA = 0.383  # sine of the steepest ray above which scalar light leaves CAUTION (`studies.vector_light`)

@@ -20,13 +20,15 @@ from time import process_time
 
 import numpy as np
 
+from p2sf.disc.quadrature import SETTLED_TOLERANCE
 from p2sf.errors import Cancelled, P2SFError
 from p2sf.figures.compare import r_squared
 from p2sf.lens.lens import Lens
 from p2sf.lens.source import Source
-from p2sf.psf.huygens import Watch, sum_rays
 from p2sf.psf.methods import PsfOptions, method_of, render
+from p2sf.psf.picture import psf_of_pupil
 from p2sf.psf.spherical import spherical_pupil
+from p2sf.pupil.watch import Watch
 from p2sf.threads import using_threads
 from tests.long.method_choice import draw
 
@@ -71,7 +73,7 @@ def measured(place: int, seed: int, most_seconds: float) -> State | str:
         end = process_time() + most_seconds
         pupil = spherical_pupil(lens, source)
         watch = Watch(cancelled=lambda: process_time() > end)
-        reference = sum_rays(pupil, (side, pixel), watch=watch).values
+        reference = psf_of_pupil(pupil, (side, pixel), rtol=SETTLED_TOLERANCE, watch=watch).values
     except (P2SFError, Cancelled) as reason:
         return f"{type(reason).__name__}: {reason}"[:100]
     return _timed(place, lens, source, (side, pixel), reference)

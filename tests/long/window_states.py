@@ -10,7 +10,7 @@ density, and the least R².
 import argparse
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf
 from time import perf_counter
 
@@ -19,7 +19,6 @@ import numpy as np
 from p2sf.errors import P2SFError
 from p2sf.figures.compare import r_squared
 from p2sf.lensfile.library import shipped_lenses
-from p2sf.psf import huygens
 from p2sf.psf.methods import reference_pupil
 from p2sf.psf.picture import psf_of_pupil
 from p2sf.pupil.plane_waves import window_reach_um
@@ -143,13 +142,14 @@ def on_samples(answer: Live, samples: int) -> float:
         else:
             step //= 2
     some = slice((count - samples * step) // 2, (count + samples * step) // 2, step)
-    reference = psf_of_pupil(reference_pupil(setup.lens, setup.source, clip), (samples, psf.pixel_um * step))
+    pupil = replace(reference_pupil(setup.lens, setup.source, clip), most=MOST_RAYS)
+    reference = psf_of_pupil(pupil, (samples, psf.pixel_um * step))
     return r_squared(psf.values[some, some], reference.values)
 
 
 def too_many(setup: ParaxialSetup, window: tuple[int, float], clip: bool) -> bool:
     """Return whether the reference would take minutes for a window."""
-    radii, directions = RayPupil(setup.lens, setup.source, clip).counts(window_reach_um(*window))
+    radii, directions = RayPupil(setup.lens, setup.source, clip, most=MOST_RAYS).counts(window_reach_um(*window))
     return radii * directions * window[0] ** 2 > MOST_PRODUCTS
 
 
@@ -179,7 +179,6 @@ def main() -> None:
     parser.add_argument("--states", type=int, default=500)
     parser.add_argument("--seed", type=int, default=1)
     given = parser.parse_args()
-    huygens.MOST_NODES = MOST_RAYS
     found = []
     for one in outcomes(given.states, given.seed):
         found.append(one)
