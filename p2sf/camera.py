@@ -178,7 +178,10 @@ class Camera(CameraData):
         def __getattr__(self, name: str) -> Any:
             """Raise AttributeError, which says of a method of earlier versions what is written instead."""
             if name in ("psf", "sweep"):
-                raise AttributeError(f"a camera has no {name} any more; write camera.at(depth_mm=…, field_deg=…).psf()")
+                raise AttributeError(
+                    f"a camera has no {name} any more; write camera.at(depth_mm=…, field_deg=…), then "
+                    "the figure, such as .psf() or .mtf(frequency_per_mm)"
+                )
             raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}", name=name, obj=self)
 
     def database(

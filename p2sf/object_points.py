@@ -185,9 +185,8 @@ class ObjectPoints(Generic[Count]):
         for name in self.axes:
             if name not in AXES:
                 raise RequestError(
-                    '{parameter} is "{value}"; choose {choices}',
-                    parameter="axes",
-                    value=name,
+                    '"{name}" is neither of a source nor of a camera; choose {choices}',
+                    name=name,
                     choices=Alternatives(AXES),
                 )
             other = "source" if self.given is not None and name in OF_THE_SOURCE else f"camera.{name}"
@@ -268,11 +267,7 @@ class ObjectPoints(Generic[Count]):
         shown whole. A ``P2SFWarning`` says where a window holds too little. Peaks, whose search takes half the time of
         a PSF, are those of `strehl`.
         """
-        from p2sf.psf.methods import PsfOptions
-        from p2sf.psf.pixel_integrals import render_setup
-
-        pitch = self.camera.pixel_um if pixel_um is None else pixel_um
-        return render_setup(self.setup, method, pixels, pitch, PsfOptions(quality, min_r2, clip), integrated)
+        return self._render(method, pixels, pixel_um, integrated, quality=quality, min_r2=min_r2, clip=clip)
 
     @figure("strehl peak_x_um peak_y_um energy")
     def strehl(
@@ -289,13 +284,19 @@ class ObjectPoints(Generic[Count]):
 
         Parameters are those of `psf`. NaN where a method has no pupil.
         """
+        psf = self._render(method, pixels, pixel_um, quality=quality, min_r2=min_r2, clip=clip)
+        x, y = (np.nan, np.nan) if psf.peak_um is None else psf.peak_um
+        return Peak(_or_nan(psf.strehl), float(x), float(y), _or_nan(psf.energy))
+
+    def _render(
+        self, method: str, pixels: int, pixel_um: float | None, integrated: bool | None = None, **options: Any
+    ) -> "Psf":
+        """Return the PSF of one point on the pixels asked for, or else the camera's."""
         from p2sf.psf.methods import PsfOptions
         from p2sf.psf.pixel_integrals import render_setup
 
         pitch = self.camera.pixel_um if pixel_um is None else pixel_um
-        psf = render_setup(self.setup, method, pixels, pitch, PsfOptions(quality, min_r2, clip))
-        x, y = (np.nan, np.nan) if psf.peak_um is None else psf.peak_um
-        return Peak(_or_nan(psf.strehl), float(x), float(y), _or_nan(psf.energy))
+        return render_setup(self.setup, method, pixels, pitch, PsfOptions(**options), integrated)
 
     @figure("tangential sagittal perfect_tangential perfect_sagittal", _asked("frequency_per_mm"))
     def mtf(

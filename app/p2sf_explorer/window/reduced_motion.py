@@ -14,8 +14,12 @@ GET_CLIENT_AREA_ANIMATION = 0x1042  # of SystemParametersInfoW, winuser.h
 
 def reduced_motion() -> bool:
     """Return whether windows are to move nothing by themselves; False where the system does not say."""
-    if sys.platform == "win32":
-        return _reduced_on_windows()
+    if sys.platform == "win32":  # written out, so that type checkers look for `windll` nowhere else
+        import ctypes
+
+        animated = ctypes.c_int(1)
+        ctypes.windll.user32.SystemParametersInfoW(GET_CLIENT_AREA_ANIMATION, 0, ctypes.byref(animated), 0)
+        return not animated.value
     if sys.platform not in ASKED:
         return False
     command, reduced = ASKED[sys.platform]
@@ -24,12 +28,3 @@ def reduced_motion() -> bool:
     except (OSError, subprocess.TimeoutExpired):
         return False
     return run.stdout.strip() == reduced
-
-
-def _reduced_on_windows() -> bool:
-    import ctypes
-
-    animated = ctypes.c_int(1)
-    windll = getattr(ctypes, "windll")  # noqa: B009 - which only Windows has, so that mypy knows it nowhere else
-    windll.user32.SystemParametersInfoW(GET_CLIENT_AREA_ANIMATION, 0, ctypes.byref(animated), 0)
-    return not animated.value

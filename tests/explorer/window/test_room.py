@@ -115,7 +115,10 @@ def test_what_is_asked_first_is_seen_without_scrolling(only_window, language):
 
 def test_no_figure_stands_beside_the_controls_and_in_the_caption(window):
     """At infinity the working f-number is that of the slider; at 500 mm it is larger by the magnification."""
-    names = lambda: {name for name, *_ in window.controls.facts.rows}  # noqa: E731
+
+    def names():
+        return {name for name, *_ in window.controls.facts.rows}
+
     window.store.update(depth_mm=inf)
     assert names() == {"Focal length"}
     window.store.update(depth_mm=500.0)

@@ -15,6 +15,7 @@ from p2sf.paraxial.seidel import coefficients
 from p2sf.raytrace.focusing import focused_vergence
 from p2sf_explorer.compute.caption import caption
 from p2sf_explorer.compute.live import Live, View
+from p2sf_explorer.compute.pupil import written_rms
 from p2sf_explorer.compute.setup import ParaxialSetup
 from p2sf_explorer.state.scales import MM_PER_UNIT, significant
 
@@ -37,36 +38,25 @@ ENTRANCE_TIP = (
 OBJECT_TIP = (
     "y of the source, negative below the axis; none at infinity. A field stated as an object height counts towards −y."
 )
+STREHL_TIP = "Peak of the PSF over that of the same pupil with W = 0; near 1 it is about exp(−(2πσ)²), σ the RMS of W."
+RMS_TIP = "Root mean square of the wavefront over the pupil, without piston and tilt, which do not blur."
 EXIT_TIP = "The stop seen from the sensor: its diameter, and its place from the last vertex."
 
 
 def rows(live: Live) -> tuple[Row, ...]:
     """Return what a person asks first and the caption does not say; *First order* has the others."""
-    s = live.setup
-    na = s.cone.na
-    every = (
-        (
-            "Strehl ratio",
-            NONE
-            if live.psf.strehl is None
-            else Message("{value}", value=Number(significant(float(live.psf.strehl), 2))),
-            "Peak of the PSF over that of the same pupil with W = 0; near 1 it is about exp(−(2πσ)²), σ the RMS of W.",
-        ),
-        (
-            "RMS wavefront",
-            Message("{value} λ", value=Number(significant(live.pupil.rms, 3))),
-            "Root mean square of the wavefront over the pupil, without piston and tilt, which do not blur.",
-        ),
-        ("Focal length", focal_length(s), "Effective focal length f′ = −1/C of the system matrix."),
-        (
-            "Working f-number",
-            aperture(0.5 / na if na else inf),
-            "Working f-number 1/(2 NA) at this depth.",
-        ),
-    )
-    parts, f_number = live.state.display.caption, caption(live).get("f_number")
-    known = {"Strehl ratio": "strehl" in parts, "RMS wavefront": "rms" in parts}
-    return tuple(row for row in every if not known.get(row[0]) and str(row[1]) != f_number)
+    na, chosen, found = live.setup.cone.na, live.state.display.caption, list[Row]()
+    if "strehl" not in chosen:
+        strehl = live.psf.strehl
+        value = NONE if strehl is None else Message("{value}", value=Number(significant(float(strehl), 2)))
+        found.append(("Strehl ratio", value, STREHL_TIP))
+    if "rms" not in chosen:
+        found.append(("RMS wavefront", Message("{value} λ", value=written_rms(live.pupil)), RMS_TIP))
+    found.append(("Focal length", focal_length(live.setup), "Effective focal length f′ = −1/C of the system matrix."))
+    working = aperture(0.5 / na if na else inf)
+    if str(working) != caption(live).get("f_number"):
+        found.append(("Working f-number", working, "Working f-number 1/(2 NA) at this depth."))
+    return tuple(found)
 
 
 def in_each_meridian(setup: ParaxialSetup, figure: Callable[[Lens], Message]) -> Message:

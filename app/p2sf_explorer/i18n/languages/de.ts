@@ -2651,6 +2651,7 @@
 <message><source>{parameter} is "{value}"; choose file or auto</source><translation>{parameter} ist "{value}"; file oder auto wählen</translation></message>
 <message><source>{parameter} is "{value}"; choose noll or fringe</source><translation>{parameter} ist "{value}"; noll oder fringe wählen</translation></message>
 <message><source>{parameter} is "{value}"; choose stop or paraxial</source><translation>{parameter} ist "{value}"; stop oder paraxial wählen</translation></message>
+<message><source>"{name}" is neither of a source nor of a camera; choose {choices}</source><translation>"{name}" gehört weder zu einer Quelle noch zu einer Kamera; {choices} wählen</translation></message>
 <message><source>{parameter} is "{value}"; choose {choices}</source><translation>{parameter} ist "{value}"; {choices} wählen</translation></message>
 <message><source>{parameter} is None; give a distance, inf for infinity</source><translation>{parameter} ist None; einen Abstand angeben, inf für unendlich</translation></message>
 <message><source>{parameter} is None; give one number or a list of them for all points</source><translation>{parameter} ist None; geben Sie eine Zahl oder eine Liste von Zahlen für alle Punkte an</translation></message>
