@@ -137,7 +137,8 @@ class PsfPanel:
         else:
             peak = float(psf.values.max()) or 1.0
             top = top_value(state, psf, peak)
-            painted *= top / (float(painted.max()) or 1.0)  # no light between two samples is lost in white
+            # No light between two samples is lost in white. Not in place: fine samples are painted themselves.
+            painted = painted * (top / (float(painted.max()) or 1.0))
             self.map.show_map(shown * (top / peak), rect, colour_scale(state, psf, peak), painted)
         self.airy.token = self.arrow.token = "muted" if live.difference else WHITE
 

@@ -1,5 +1,6 @@
 """The PSF panel: as many samples as pixels once it rests, a badge that promises no more than is known."""
 
+from dataclasses import replace
 from itertools import pairwise
 from threading import Event
 
@@ -7,6 +8,7 @@ import numpy as np
 import pytest
 
 from p2sf.errors import Cancelled
+from p2sf.figures.enlarge import LARGEST
 from p2sf_explorer.compute.finer import fade
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.compute.setup import default_state, load, shipped_names
@@ -143,3 +145,15 @@ def test_the_light_of_every_lens_fills_the_stage_at_every_field(window, qtbot, n
         window.store.replace(change(opens, field_deg=share * largest, method="auto"))
         qtbot.waitUntil(lambda: not window.late_sums.busy)
         assert 0.6 <= circle_over_stage(window) <= 0.95, share
+
+
+def test_a_picture_that_is_fine_enough_is_read_as_it_is(window):
+    """Its samples are painted themselves, and were divided by their peak twice: a marker read 24 000 (peak = 1)."""
+    window.store.update(method="seidel", f_number=8.0, field_deg=4.0)
+    panel = window.panels["psf"]
+    axis = np.linspace(-3, 3, 2 * LARGEST)
+    light = np.exp(-(axis**2) - axis[:, None] ** 2).astype(np.float32)
+    light /= light.sum()
+    kept = light.copy()
+    panel._paint(window.live, replace(window.live.psf, values=light))
+    assert np.array_equal(light, kept) and panel.map.values.max() == pytest.approx(1.0)
