@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QIcon, QImage, QPixmap
-from PySide6.QtWidgets import QDialog, QLineEdit, QListWidget, QListWidgetItem, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDialog, QListWidget, QListWidgetItem, QVBoxLayout, QWidget
 
 from p2sf.errors import P2SFError
 from p2sf.figures.enlarge import enlarge
@@ -15,6 +15,7 @@ from p2sf_explorer.compute.framing import frame_of, light_circle
 from p2sf_explorer.compute.live import live
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.lessons.lesson import Lesson
+from p2sf_explorer.widgets.search_line import SearchLine
 
 NAME = Qt.ItemDataRole.UserRole
 PICTURE_PX, SIZE = 56, (520, 560)
@@ -32,7 +33,8 @@ class LessonList(QDialog):
         super().__init__(parent)
         self._lessons = lessons
         self.setWindowTitle(tr(self.title))
-        self.sought, self.list = QLineEdit(self), QListWidget(self)
+        self.list = QListWidget(self)
+        self.sought = SearchLine(self.list, self)
         self.sought.setPlaceholderText(tr("Search titles and texts"))
         self.sought.setAccessibleName(tr("Search titles and texts"))
         self.sought.setClearButtonEnabled(True)

@@ -148,6 +148,17 @@ def test_undo_gives_a_step_for_each_change(window, qtbot, teaching):
     assert teaching.maker.steps, "what is being made is kept"
 
 
+def test_keys_in_the_search_choose_in_the_list(window, qtbot, teaching):
+    teaching.open_list()
+    found = teaching.list
+    for key, row in ((Qt.Key.Key_Down, 1), (Qt.Key.Key_Down, 2), (Qt.Key.Key_Up, 1)):
+        qtbot.keyClick(found.sought, key)
+        assert found.list.currentRow() == row
+    qtbot.keyClick(found.sought, Qt.Key.Key_Return)
+    assert window.store.state.lesson.name == list(teaching.lessons())[1]
+    QApplication.processEvents()
+
+
 def test_the_list_finds_lessons_by_title_and_content(window, qtbot, teaching):
     teaching.open_list()
     found = teaching.list

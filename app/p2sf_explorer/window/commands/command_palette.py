@@ -6,10 +6,11 @@ from functools import lru_cache
 
 from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QFrame, QLabel, QLineEdit, QListWidget, QListWidgetItem, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFrame, QLabel, QListWidget, QListWidgetItem, QVBoxLayout, QWidget
 
 from p2sf_explorer.i18n.tr import tr
 from p2sf_explorer.widgets.command import Command
+from p2sf_explorer.widgets.search_line import SearchLine
 
 START, NEXT, GAP = 8.0, 6.0, 0.3  # scores of a letter at a word's start and right behind the last; cost of a gap
 LATE, LONG = 0.05, 0.01  # costs of every letter before the first that fits, and of every letter of the text
@@ -125,7 +126,6 @@ def rank(sought: str, texts: Sequence[str], further: Sequence[str] = ()) -> list
 
 WIDE, MOST = 520, 60
 HINT = "Type a few letters, choose with ↑ ↓, run with Enter, leave with Escape."
-STEPS = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown)
 
 
 class Palette(QFrame):
@@ -135,7 +135,8 @@ class Palette(QFrame):
         super().__init__(parent, Qt.WindowType.Popup)
         self._window = parent
         self.setObjectName("card")
-        self.sought, self.found = QLineEdit(self), QListWidget(self)
+        self.found = QListWidget(self)
+        self.sought = SearchLine(self.found, self)
         self.sought.setPlaceholderText(tr("What do you want to do?"))
         self.sought.setAccessibleName(tr("Find a command, a panel, a lens, a lesson or a preset"))
         self.sought.textChanged.connect(self._find)
@@ -191,12 +192,9 @@ class Palette(QFrame):
             self._commands[number].run()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Hand the keys that choose on to the list."""
+        """Run what is chosen with Return, and leave with Escape."""
         if not isinstance(event, QKeyEvent) or event.type() != QEvent.Type.KeyPress:
             return False
-        if event.key() in STEPS:
-            self.found.event(event)
-            return True
         if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
             self.take()
             return True
